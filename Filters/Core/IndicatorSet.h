@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one evaluator of the materials' indicator functions.
+#ifndef LabelMesh_Core_IndicatorSet_h
+#define LabelMesh_Core_IndicatorSet_h
+
+#include "Lattice.h"
+
+#include <string>
+#include <vector>
+
+namespace LabelMesh
+{
+/// One material's indicator samples: signed distance in world length, > 0 inside. Values are not owned.
+struct IndicatorBlock
+{
+  LabelMesh::Label Label = 0;
+  Lattice Frame;                 ///< in the local frame of the set
+  const float* Values = nullptr; ///< Frame.Size() samples
+  double Outside = -1.0;         ///< the indicator beyond the block; the background's is positive
+};
+
+/// A material and its indicator at some point.
+struct RankedMaterial
+{
+  MaterialId Material = NoMaterial;
+  double Value = 0.0;
+};
+
+/// A short ordered list of materials.
+struct MaterialSpan
+{
+  const MaterialId* First = nullptr;
+  int Count = 0;
+  const MaterialId* begin() const { return this->First; }
+  const MaterialId* end() const { return this->First + this->Count; }
+};
+
+/// The indicator functions f_i of all materials (paper, section 3): value, gradient and Hessian by separable
+/// convolution with the interpolating 4^3 Catmull-Rom spline (paper, section 5.1), and which materials can be the
+/// largest near a point. Positions are in the local frame of the working lattice.
+///
+/// Sparse: the work at a point depends on the materials near it, not on how many there are.
+/// Const after construction and safe to ask from many threads.
+class IndicatorSet
+{
+public:
+  /// `working` is the lattice that covers every block; blocks are ordered by label by the caller (checked).
+  /// Throws std::invalid_argument when there is no block, labels are not ascending, or there are 65535 or more.
+  IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label background, const Lattice& working);
+
+  int NumberOfMaterials() const { return int(this->Blocks.size()); }
+  LabelMesh::Label LabelOf(MaterialId m) const { return this->Blocks[m].Label; }
+  const IndicatorBlock& Block(MaterialId m) const { return this->Blocks[m]; }
+  /// NoMaterial when no block has the background label.
+  MaterialId Background() const { return this->Background_; }
+  const Lattice& Working() const { return this->Working_; }
+  double VoxelSize() const { return this->Working_.VoxelSize(); }
+
+  double Value(MaterialId m, const Vec3& x) const;
+  double ValueAndGradient(MaterialId m, const Vec3& x, Vec3& gradient) const;
+  double ValueGradientHessian(MaterialId m, const Vec3& x, Vec3& gradient, Mat3& hessian) const;
+
+  /// The materials that can be the largest anywhere in the tile of x, ascending. Never empty.
+  MaterialSpan Candidates(const Vec3& x) const;
+  /// The (at most k) largest materials at x among the candidates, largest first, ties to the smaller id.
+  /// Returns how many were written.
+  int Largest(const Vec3& x, int k, RankedMaterial* ranked) const;
+  MaterialId LargestMaterial(const Vec3& x) const;
+  /// The largest indicator among candidates that are not in [excluded, excluded + count); NoMaterial if none.
+  RankedMaterial LargestBut(const Vec3& x, const MaterialId* excluded, int count) const;
+
+  /// The largest material at every sample of the working lattice.
+  const std::vector<MaterialId>& Labels() const { return this->Labels_; }
+
+private:
+  void FindLabels();
+  void FindCandidates();
+  Index TileOf(const Vec3& x) const;
+
+  std::vector<IndicatorBlock> Blocks;
+  MaterialId Background_ = NoMaterial;
+  Lattice Working_;
+  std::vector<MaterialId> Labels_;
+  // Tiles of TileSize^3 cells of the working lattice; tile t has CandidateIds[TileStarts[t] .. TileStarts[t + 1]).
+  std::array<int, 3> TileDims{ 0, 0, 0 };
+  std::vector<Index> TileStarts;
+  std::vector<MaterialId> CandidateIds;
+};
+}
+
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The contract of the material collections: the only place where their VTK data meets Core.
+//
+// A vtkPartitionedDataSetCollection with one vtkImageData per material (one partition each), ascending by label:
+//  - block NAME = material name; one active float32 point array named Mask, TightDistance or Indicator;
+//    block field data Label (int64), Color;
+//  - collection field data: Labels, MaterialNames, MaterialColors, BackgroundLabel, VoxelSize, SourceExtent, SourceOrigin,
+//    SourceDirection, Padding, IndicatorKernel, and what the stages add; assembly root "Indicators".
+// The background is a material with a block of its own, which covers the whole working grid.
+#ifndef IndicatorCollection_h
+#define IndicatorCollection_h
+
+#include "Core/GridFrame.h"
+#include "Core/IndicatorSet.h"
+
+#include <string>
+#include <vector>
+
+class vtkFieldData;
+class vtkImageData;
+class vtkInformation;
+class vtkPartitionedDataSetCollection;
+
+namespace LabelMesh
+{
+struct Material
+{
+  LabelMesh::Label Label = 0;
+  std::string Name;
+  Vec3 Color = Vec3::Constant(0.7);
+};
+
+/// What every stage knows of the whole collection.
+struct CollectionHeader
+{
+  GridFrame Source; ///< the label image's grid, after resampling
+  int Padding = 0;  ///< samples; the working grid is Source.Grown(Padding)
+  LabelMesh::Label Background = 0;
+  std::vector<Material> Materials; ///< ascending by label, the background among them
+
+  GridFrame WorkingFrame() const { return this->Source.Grown(this->Padding); }
+};
+
+GridFrame FrameOf(vtkImageData* image);
+void SetFrame(vtkImageData* image, const GridFrame& frame);
+
+/// Default name ("Label_3") and colour (a categorical palette, by label) of a label.
+Material DefaultMaterial(LabelMesh::Label label);
+
+/// Writes and reads the materials of field data: Labels, MaterialNames, MaterialColors, BackgroundLabel. Meshes carry them too.
+void WriteMaterials(vtkFieldData* fieldData, const std::vector<Material>& materials, LabelMesh::Label background);
+std::vector<Material> ReadMaterials(vtkFieldData* fieldData);
+
+void WriteHeader(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header);
+/// Throws std::invalid_argument with a sentence for the user when the collection does not keep the contract.
+CollectionHeader ReadHeader(vtkPartitionedDataSetCollection* collection);
+
+/// Appends a block (an image that already has its frame) with its name, label, colour, and `values` as its active array.
+/// `values` is adopted, not copied.
+void AppendBlock(vtkPartitionedDataSetCollection* collection, const Material& material, const GridFrame& frame,
+  const char* arrayName, std::vector<float>&& values);
+/// The n-th material's image. Throws std::invalid_argument when it has no float32 point array `arrayName`, naming the
+/// filter whose output is expected.
+vtkImageData* BlockImage(vtkPartitionedDataSetCollection* collection, unsigned int n);
+const float* BlockValues(vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName);
+
+/// An evaluator over the collection's Indicator arrays (shared, not copied: keep the collection alive).
+IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header);
+
+/// The source grid must be known before there is data: information keys that every stage copies.
+void PublishFrame(vtkInformation* outInfo, const GridFrame& source, int padding);
+void CopyPublishedFrame(vtkInformation* inInfo, vtkInformation* outInfo);
+/// From the keys or, where a reader does not publish them, from the data object if it is there. False when unknown.
+bool PublishedFrame(vtkInformation* inInfo, GridFrame& source, int& padding);
+}
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Particles, curves and interface meshes as vtkPolyData and back: positions become world coordinates here.
+#ifndef MeshAdapter_h
+#define MeshAdapter_h
+
+#include "Core/GridFrame.h"
+#include "Core/InterfaceMesh.h"
+#include "Core/Particles.h"
+#include "IndicatorCollection.h"
+
+#include <vector>
+
+class vtkPartitionedDataSetCollection;
+class vtkPolyData;
+
+namespace LabelMesh
+{
+/// One vertex cell per particle; point arrays CellDimension, NumberOfMaterials, Materials, TargetLength, Residual, Normal.
+/// Field data as WriteMaterials.
+void ParticlesToPolyData(const std::vector<Particle>& particles, const CollectionHeader& header, vtkPolyData* output);
+/// Throws std::invalid_argument with a sentence when an array of the contract is missing or a label is unknown.
+std::vector<Particle> ParticlesFromPolyData(vtkPolyData* input, const CollectionHeader& header);
+
+/// One polyline per 1-cell; cell array Materials (int64 x 3).
+void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Particle>& particles,
+  const CollectionHeader& header, vtkPolyData* output);
+
+/// Triangles with cell arrays BoundaryLabels and RadiusRatio and point arrays CellDimension, NumberOfMaterials, Materials.
+/// Turns triangles over for mirrored frames and orders each pair as the contract says: the background label second, else
+/// ascending. Field data as WriteMaterials.
+void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output);
+
+/// One closed, outward-oriented vtkPolyData per label that is not the background, ascending, NAME and field data Label and
+/// Color, with the interface's own points; from any interface mesh that keeps the BoundaryLabels contract.
+/// Cell arrays are kept; the cell array BoundaryLabels too.
+void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output);
+}
+
+#endif
