@@ -73,8 +73,19 @@ public:
   const std::vector<MaterialId>& Labels() const { return this->Labels_; }
 
 private:
-  void FindLabels();
-  void FindCandidates();
+  /// The samples of the working lattice that a block covers, and where its own zero lies if their samples coincide.
+  struct SampleBox
+  {
+    std::array<Index, 3> First{}, Last{}, Offset{};
+    bool Aligned = false;
+  };
+  SampleBox WorkingSamples(const Lattice& block) const;
+  /// Fills Labels_; returns the largest indicator at every working sample.
+  std::vector<float> FindLabels();
+  void FindCandidates(const std::vector<float>& largest);
+  /// Appends m to each tile of a layer (constant z) that it can win in.
+  void FindTilesOf(MaterialId m, Index tileLayer, const std::vector<float>& largest,
+    std::vector<std::vector<MaterialId>>& tiles) const;
   Index TileOf(const Vec3& x) const;
 
   std::vector<IndicatorBlock> Blocks;

@@ -1,0 +1,489 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IndicatorSet.h"
+
+#include "Parallel.h"
+
+#include <limits>
+#include <stdexcept>
+
+namespace LabelMesh
+{
+namespace
+{
+constexpr int TileSize = 4; // cells of the working lattice along each axis
+
+constexpr double Overshoot = 0.3;         // voxels: how far the spline of a signed distance may overshoot its samples
+constexpr double LatticeTolerance = 1e-4; // samples: two positions this close are the same
+
+using Row = Eigen::Array4f;
+
+/// The Catmull-Rom weights of four consecutive samples at t in [0, 1] from the second, and their derivatives.
+struct Weights
+{
+  Row Value, First, Second;
+
+  explicit Weights(float t)
+  {
+    const float t2 = t * t, t3 = t2 * t;
+    this->Value = Row(-0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1.0f, -1.5f * t3 + 2.0f * t2 + 0.5f * t,
+      0.5f * t3 - 0.5f * t2);
+    this->First =
+      Row(-1.5f * t2 + 2.0f * t - 0.5f, 4.5f * t2 - 5.0f * t, -4.5f * t2 + 4.0f * t + 0.5f, 1.5f * t2 - t);
+    this->Second = Row(-3.0f * t + 2.0f, 9.0f * t - 5.0f, -9.0f * t + 4.0f, 3.0f * t - 1.0f);
+  }
+};
+
+/// The 4^3 samples around a position, as rows along x, and the position within their middle cell.
+struct Stencil
+{
+  std::array<float, 3> T{};
+  const float* Samples = nullptr;
+  Index RowStride = 0, SliceStride = 0;
+  std::array<float, 64> Copy; // only where the support passes the border of the block
+
+  /// False when x lies beyond the block.
+  bool Locate(const IndicatorBlock& block, const Vec3& x)
+  {
+    const auto& dims = block.Frame.Dims;
+    std::array<int, 3> cell;
+    bool inner = true;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double u = (x[a] - block.Frame.Origin[a]) / block.Frame.Spacing[a];
+      if (!(u >= 0.0 && u <= dims[a] - 1))
+      {
+        return false;
+      }
+      cell[a] = std::max(std::min(int(u), dims[a] - 2), 0);
+      this->T[a] = float(u - cell[a]);
+      inner = inner && cell[a] >= 1 && cell[a] + 2 < dims[a];
+    }
+    if (inner)
+    {
+      this->Samples = block.Values + block.Frame.At(cell[0] - 1, cell[1] - 1, cell[2] - 1);
+      this->RowStride = dims[0];
+      this->SliceStride = Index(dims[0]) * dims[1];
+    }
+    else
+    {
+      this->CopyClamped(block, cell);
+    }
+    return true;
+  }
+
+  Row At(int j, int k) const
+  {
+    return Eigen::Map<const Row>(this->Samples + j * this->RowStride + k * this->SliceStride);
+  }
+
+private:
+  void CopyClamped(const IndicatorBlock& block, const std::array<int, 3>& cell)
+  {
+    const auto clamped = [&](int axis, int offset)
+    { return std::clamp(cell[axis] + offset, 0, block.Frame.Dims[axis] - 1); };
+    int n = 0;
+    for (int k = -1; k < 3; ++k)
+    {
+      for (int j = -1; j < 3; ++j)
+      {
+        for (int i = -1; i < 3; ++i)
+        {
+          this->Copy[n++] = block.Values[block.Frame.At(clamped(0, i), clamped(1, j), clamped(2, k))];
+        }
+      }
+    }
+    this->Samples = this->Copy.data();
+    this->RowStride = 4;
+    this->SliceStride = 16;
+  }
+};
+
+float Dot(const Row& a, const Row& b)
+{
+  return (a * b).sum();
+}
+}
+
+IndicatorSet::IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label background, const Lattice& working)
+  : Blocks(std::move(blocks))
+  , Working_(working)
+{
+  if (this->Blocks.empty() || this->Blocks.size() >= NoMaterial)
+  {
+    throw std::invalid_argument("expected 1 to 65534 materials, found " + std::to_string(this->Blocks.size()));
+  }
+  for (std::size_t m = 0; m < this->Blocks.size(); ++m)
+  {
+    if (m > 0 && this->Blocks[m].Label <= this->Blocks[m - 1].Label)
+    {
+      throw std::invalid_argument("the materials' labels are not in ascending order");
+    }
+    if (this->Blocks[m].Label == background)
+    {
+      this->Background_ = MaterialId(m);
+    }
+  }
+  this->FindCandidates(this->FindLabels());
+}
+
+double IndicatorSet::Value(MaterialId m, const Vec3& x) const
+{
+  const IndicatorBlock& block = this->Blocks[m];
+  Stencil stencil;
+  if (!stencil.Locate(block, x))
+  {
+    return block.Outside;
+  }
+  const Weights wx(stencil.T[0]), wy(stencil.T[1]), wz(stencil.T[2]);
+  Row sum = Row::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    Row slice = Row::Zero();
+    for (int j = 0; j < 4; ++j)
+    {
+      slice += wy.Value[j] * stencil.At(j, k);
+    }
+    sum += wz.Value[k] * slice;
+  }
+  return Dot(sum, wx.Value);
+}
+
+double IndicatorSet::ValueAndGradient(MaterialId m, const Vec3& x, Vec3& gradient) const
+{
+  const IndicatorBlock& block = this->Blocks[m];
+  Stencil stencil;
+  if (!stencil.Locate(block, x))
+  {
+    gradient.setZero();
+    return block.Outside;
+  }
+  const Weights wx(stencil.T[0]), wy(stencil.T[1]), wz(stencil.T[2]);
+  Row sum = Row::Zero(), alongY = Row::Zero(), alongZ = Row::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    Row slice = Row::Zero(), sliceY = Row::Zero();
+    for (int j = 0; j < 4; ++j)
+    {
+      const Row row = stencil.At(j, k);
+      slice += wy.Value[j] * row;
+      sliceY += wy.First[j] * row;
+    }
+    sum += wz.Value[k] * slice;
+    alongY += wz.Value[k] * sliceY;
+    alongZ += wz.First[k] * slice;
+  }
+  gradient = Vec3(Dot(sum, wx.First), Dot(alongY, wx.Value), Dot(alongZ, wx.Value)).cwiseQuotient(block.Frame.Spacing);
+  return Dot(sum, wx.Value);
+}
+
+double IndicatorSet::ValueGradientHessian(MaterialId m, const Vec3& x, Vec3& gradient, Mat3& hessian) const
+{
+  const IndicatorBlock& block = this->Blocks[m];
+  Stencil stencil;
+  if (!stencil.Locate(block, x))
+  {
+    gradient.setZero();
+    hessian.setZero();
+    return block.Outside;
+  }
+  const Weights wx(stencil.T[0]), wy(stencil.T[1]), wz(stencil.T[2]);
+  Row sum = Row::Zero(), y = Row::Zero(), z = Row::Zero(), yy = Row::Zero(), yz = Row::Zero(), zz = Row::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    Row slice = Row::Zero(), sliceY = Row::Zero(), sliceYY = Row::Zero();
+    for (int j = 0; j < 4; ++j)
+    {
+      const Row row = stencil.At(j, k);
+      slice += wy.Value[j] * row;
+      sliceY += wy.First[j] * row;
+      sliceYY += wy.Second[j] * row;
+    }
+    sum += wz.Value[k] * slice;
+    y += wz.Value[k] * sliceY;
+    yy += wz.Value[k] * sliceYY;
+    z += wz.First[k] * slice;
+    yz += wz.First[k] * sliceY;
+    zz += wz.Second[k] * slice;
+  }
+  const Vec3& s = block.Frame.Spacing;
+  gradient = Vec3(Dot(sum, wx.First), Dot(y, wx.Value), Dot(z, wx.Value)).cwiseQuotient(s);
+  const double xy = Dot(y, wx.First) / (s[0] * s[1]);
+  const double xz = Dot(z, wx.First) / (s[0] * s[2]);
+  const double yzMixed = Dot(yz, wx.Value) / (s[1] * s[2]);
+  hessian << Dot(sum, wx.Second) / (s[0] * s[0]), xy, xz, //
+    xy, Dot(yy, wx.Value) / (s[1] * s[1]), yzMixed,       //
+    xz, yzMixed, Dot(zz, wx.Value) / (s[2] * s[2]);
+  return Dot(sum, wx.Value);
+}
+
+Index IndicatorSet::TileOf(const Vec3& x) const
+{
+  Index tile[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    const double cell = (x[a] - this->Working_.Origin[a]) / this->Working_.Spacing[a];
+    tile[a] = cell > 0.0 ? std::min<Index>(Index(cell) / TileSize, this->TileDims[a] - 1) : 0;
+  }
+  return tile[0] + this->TileDims[0] * (tile[1] + Index(this->TileDims[1]) * tile[2]);
+}
+
+MaterialSpan IndicatorSet::Candidates(const Vec3& x) const
+{
+  const Index tile = this->TileOf(x);
+  const Index first = this->TileStarts[tile];
+  return { this->CandidateIds.data() + first, int(this->TileStarts[tile + 1] - first) };
+}
+
+int IndicatorSet::Largest(const Vec3& x, int k, RankedMaterial* ranked) const
+{
+  int count = 0;
+  for (const MaterialId m : this->Candidates(x))
+  {
+    const double value = this->Value(m, x);
+    int at = count;
+    for (; at > 0 && ranked[at - 1].Value < value; --at)
+    {
+      if (at < k)
+      {
+        ranked[at] = ranked[at - 1];
+      }
+    }
+    if (at < k)
+    {
+      ranked[at] = { m, value };
+      count = std::min(count + 1, k);
+    }
+  }
+  return count;
+}
+
+MaterialId IndicatorSet::LargestMaterial(const Vec3& x) const
+{
+  return this->LargestBut(x, nullptr, 0).Material;
+}
+
+RankedMaterial IndicatorSet::LargestBut(const Vec3& x, const MaterialId* excluded, int count) const
+{
+  RankedMaterial best{ NoMaterial, -std::numeric_limits<double>::infinity() };
+  const MaterialSpan candidates = this->Candidates(x);
+  if (count == 0 && candidates.Count == 1)
+  {
+    return { *candidates.First, this->Value(*candidates.First, x) };
+  }
+  for (const MaterialId m : candidates)
+  {
+    if (std::find(excluded, excluded + count, m) != excluded + count)
+    {
+      continue;
+    }
+    const double value = this->Value(m, x);
+    if (value > best.Value)
+    {
+      best = { m, value };
+    }
+  }
+  return best;
+}
+
+IndicatorSet::SampleBox IndicatorSet::WorkingSamples(const Lattice& block) const
+{
+  SampleBox box;
+  const Vec3 low = this->Working_.ToIndex(block.Origin);
+  const Vec3 high = this->Working_.ToIndex(block.Position(block.Dims[0] - 1, block.Dims[1] - 1, block.Dims[2] - 1));
+  box.Aligned = true;
+  for (int a = 0; a < 3; ++a)
+  {
+    box.First[a] = std::max<Index>(0, Index(std::ceil(low[a] - LatticeTolerance)));
+    box.Last[a] = std::min<Index>(this->Working_.Dims[a] - 1, Index(std::floor(high[a] + LatticeTolerance)));
+    box.Offset[a] = std::lround(low[a]);
+    box.Aligned = box.Aligned && std::abs(low[a] - double(box.Offset[a])) < LatticeTolerance &&
+      std::abs(high[a] - double(box.Offset[a] + block.Dims[a] - 1)) < LatticeTolerance;
+  }
+  return box;
+}
+
+std::vector<float> IndicatorSet::FindLabels()
+{
+  const Lattice& working = this->Working_;
+  // Where no block reaches, the material with the largest value beyond its block wins: the background.
+  MaterialId beyond = 0;
+  std::vector<SampleBox> boxes;
+  for (std::size_t m = 0; m < this->Blocks.size(); ++m)
+  {
+    boxes.push_back(this->WorkingSamples(this->Blocks[m].Frame));
+    if (this->Blocks[m].Outside > this->Blocks[beyond].Outside)
+    {
+      beyond = MaterialId(m);
+    }
+  }
+  this->Labels_.assign(working.Size(), beyond);
+  std::vector<float> largest(working.Size(), float(this->Blocks[beyond].Outside));
+  const auto compete = [&](MaterialId m, Index k)
+  {
+    const IndicatorBlock& block = this->Blocks[m];
+    const SampleBox& box = boxes[m];
+    for (Index j = box.First[1]; j <= box.Last[1]; ++j)
+    {
+      for (Index i = box.First[0]; i <= box.Last[0]; ++i)
+      {
+        const float value = box.Aligned
+          ? block.Values[block.Frame.At(i - box.Offset[0], j - box.Offset[1], k - box.Offset[2])]
+          : float(this->Value(m, working.Position(double(i), double(j), double(k))));
+        const Index at = working.At(i, j, k);
+        if (value > largest[at] || (m == beyond))
+        {
+          largest[at] = value;
+          this->Labels_[at] = m;
+        }
+      }
+    }
+  };
+  ParallelFor(0, working.Dims[2], 1,
+    [&](Index firstSlice, Index lastSlice)
+    {
+      for (Index k = firstSlice; k < lastSlice; ++k)
+      {
+        // First the one that was assumed everywhere, then its rivals.
+        const auto reaches = [&](MaterialId m) { return k >= boxes[m].First[2] && k <= boxes[m].Last[2]; };
+        if (reaches(beyond))
+        {
+          compete(beyond, k);
+        }
+        for (std::size_t m = 0; m < this->Blocks.size(); ++m)
+        {
+          if (m != beyond && reaches(MaterialId(m)))
+          {
+            compete(MaterialId(m), k);
+          }
+        }
+      }
+    });
+  return largest;
+}
+
+void IndicatorSet::FindCandidates(const std::vector<float>& largest)
+{
+  const Lattice& working = this->Working_;
+  for (int a = 0; a < 3; ++a)
+  {
+    this->TileDims[a] = std::max(1, (working.Dims[a] - 1 + TileSize - 1) / TileSize);
+  }
+  const Index perLayer = Index(this->TileDims[0]) * this->TileDims[1];
+  std::vector<std::vector<MaterialId>> layers(this->TileDims[2]);
+  this->TileStarts.assign(perLayer * this->TileDims[2] + 1, 0);
+  ParallelFor(0, this->TileDims[2], 1,
+    [&](Index first, Index last)
+    {
+      std::vector<std::vector<MaterialId>> tiles(perLayer);
+      for (Index k = first; k < last; ++k)
+      {
+        for (std::size_t m = 0; m < this->Blocks.size(); ++m)
+        {
+          this->FindTilesOf(MaterialId(m), k, largest, tiles);
+        }
+        for (Index t = 0; t < perLayer; ++t)
+        {
+          if (tiles[t].empty())
+          {
+            tiles[t].push_back(this->Labels_[working.At(std::min<Index>(t % this->TileDims[0] * TileSize, working.Dims[0] - 1),
+              std::min<Index>(t / this->TileDims[0] * TileSize, working.Dims[1] - 1),
+              std::min<Index>(k * TileSize, working.Dims[2] - 1))]);
+          }
+          layers[k].insert(layers[k].end(), tiles[t].begin(), tiles[t].end());
+          this->TileStarts[k * perLayer + t + 1] = Index(tiles[t].size());
+          tiles[t].clear();
+        }
+      }
+    });
+  for (std::size_t t = 1; t < this->TileStarts.size(); ++t)
+  {
+    this->TileStarts[t] += this->TileStarts[t - 1];
+  }
+  this->CandidateIds.reserve(this->TileStarts.back());
+  for (const auto& ids : layers)
+  {
+    this->CandidateIds.insert(this->CandidateIds.end(), ids.begin(), ids.end());
+  }
+}
+
+void IndicatorSet::FindTilesOf(
+  MaterialId m, Index tileLayer, const std::vector<float>& largest, std::vector<std::vector<MaterialId>>& tiles) const
+{
+  const Lattice& working = this->Working_;
+  const IndicatorBlock& block = this->Blocks[m];
+  // Indicators are distances (1-Lipschitz): with the nearest sample at most half a cell's diagonal away, a material can
+  // only be the largest near a sample where it is at most a diagonal, and the spline's overshoot, below the largest.
+  // A block on a lattice of its own is compared with the nearest working sample: its diagonal comes on top.
+  const SampleBox box = this->WorkingSamples(block.Frame);
+  const float slack = float(working.Spacing.norm() + (box.Aligned ? 0.0 : block.Frame.Spacing.norm() + working.Spacing.norm()) +
+    Overshoot * this->VoxelSize());
+  // The block's samples in the tile's cells, or one more on either side where the lattices differ.
+  const auto samples = [&](int axis, Index tile, Index& first, Index& last)
+  {
+    const double low = working.Origin[axis] + double(tile * TileSize) * working.Spacing[axis];
+    const double high = low + TileSize * working.Spacing[axis];
+    const auto& frame = block.Frame;
+    first = Index(std::floor((low - frame.Origin[axis]) / frame.Spacing[axis] + LatticeTolerance));
+    last = Index(std::ceil((high - frame.Origin[axis]) / frame.Spacing[axis] - LatticeTolerance));
+    first = std::max<Index>(first, 0);
+    last = std::min<Index>(last, frame.Dims[axis] - 1);
+    return first <= last;
+  };
+  const auto nearest = [&](int axis, Index sample)
+  {
+    const double local = block.Frame.Origin[axis] + double(sample) * block.Frame.Spacing[axis];
+    return std::clamp<Index>(
+      std::lround((local - working.Origin[axis]) / working.Spacing[axis]), 0, working.Dims[axis] - 1);
+  };
+  const auto canWin = [&](const Index first[3], const Index last[3])
+  {
+    for (Index k = first[2]; k <= last[2]; ++k)
+    {
+      const Index wk = nearest(2, k);
+      for (Index j = first[1]; j <= last[1]; ++j)
+      {
+        const Index wj = nearest(1, j);
+        for (Index i = first[0]; i <= last[0]; ++i)
+        {
+          if (block.Values[block.Frame.At(i, j, k)] >= largest[working.At(nearest(0, i), wj, wk)] - slack)
+          {
+            return true;
+          }
+        }
+      }
+    }
+    return false;
+  };
+  Index first[3], last[3];
+  if (!samples(2, tileLayer, first[2], last[2]))
+  {
+    return;
+  }
+  const Vec3 low = working.ToIndex(block.Frame.Origin) / TileSize;
+  for (Index tj = std::max<Index>(0, Index(low[1]) - 1); tj < this->TileDims[1]; ++tj)
+  {
+    if (!samples(1, tj, first[1], last[1]))
+    {
+      if (first[1] >= block.Frame.Dims[1])
+      {
+        break;
+      }
+      continue;
+    }
+    for (Index ti = std::max<Index>(0, Index(low[0]) - 1); ti < this->TileDims[0]; ++ti)
+    {
+      if (samples(0, ti, first[0], last[0]))
+      {
+        if (canWin(first, last))
+        {
+          tiles[ti + this->TileDims[0] * tj].push_back(m);
+        }
+      }
+      else if (first[0] >= block.Frame.Dims[0])
+      {
+        break;
+      }
+    }
+  }
+}
+}
