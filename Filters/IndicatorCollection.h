@@ -52,16 +52,18 @@ void WriteMaterials(vtkFieldData* fieldData, const std::vector<Material>& materi
 std::vector<Material> ReadMaterials(vtkFieldData* fieldData);
 
 void WriteHeader(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header);
+/// A collection without blocks and labels (an empty volume) is legal: its header has no materials and no grid.
 /// Throws std::invalid_argument with a sentence for the user when the collection does not keep the contract.
 CollectionHeader ReadHeader(vtkPartitionedDataSetCollection* collection);
 
-/// Appends a block (an image that already has its frame) with its name, label, colour, and `values` as its active array.
-/// `values` is adopted, not copied.
+/// Appends a block on `frame` with its name, label and colour, and `values` as its active array. The memory of `values` is
+/// given back.
 void AppendBlock(vtkPartitionedDataSetCollection* collection, const Material& material, const GridFrame& frame,
   const char* arrayName, std::vector<float>&& values);
-/// The n-th material's image. Throws std::invalid_argument when it has no float32 point array `arrayName`, naming the
-/// filter whose output is expected.
+/// The n-th material's image. Throws std::invalid_argument when the block is not one image.
 vtkImageData* BlockImage(vtkPartitionedDataSetCollection* collection, unsigned int n);
+/// Its samples. Throws std::invalid_argument when it has no float32 point array `arrayName`, naming the filter whose
+/// output is expected.
 const float* BlockValues(vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName);
 
 /// An evaluator over the collection's Indicator arrays (shared, not copied: keep the collection alive).
