@@ -31,9 +31,27 @@ void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Partic
 void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output);
 
 /// One closed, outward-oriented vtkPolyData per label that is not the background, ascending, NAME and field data Label and
-/// Color, with the interface's own points; from any interface mesh that keeps the BoundaryLabels contract.
-/// Cell arrays are kept; the cell array BoundaryLabels too.
+/// Color, with the interface's own points; from any interface mesh that keeps the BoundaryLabels contract. A material
+/// without triangles has an empty block. Point and cell arrays are kept; BoundaryLabels is (own label, the other side's),
+/// so that here too the normal points from the first to the second. Throws as ReadInterface does.
 void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output);
+
+/// An interface mesh in Core's terms, in world coordinates.
+struct InterfaceData
+{
+  std::vector<Material> Materials; ///< ascending; those of the field data and every label that a triangle has
+  LabelMesh::Label Background = 0;
+  std::vector<Vec3> Points;
+  std::vector<InterfaceTriangle> Triangles; ///< in the order of the cells
+  std::vector<MaterialSet> Sets;            ///< per point; empty when the mesh has no point array Materials
+};
+
+/// Reads any interface mesh that keeps the BoundaryLabels contract. Without field data BackgroundLabel the background is 0.
+/// Throws std::invalid_argument with a sentence when there are cells that are not triangles or BoundaryLabels is missing.
+InterfaceData ReadInterface(vtkPolyData* interfaceMesh);
+
+/// The pair in the order of the contract: the background second, else ascending. True when it was turned over.
+bool OrderPair(std::array<LabelMesh::Label, 2>& pair, LabelMesh::Label background);
 }
 
 #endif

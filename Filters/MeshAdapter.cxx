@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshAdapter.h"
+
+#include "LabelMeshNames.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
+#include <vtkDataAssembly.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIdList.h>
+#include <vtkInformation.h>
+#include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace LabelMesh
+{
+namespace
+{
+template <typename Array>
+vtkSmartPointer<Array> NewArray(const char* name, int components, Index tuples)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+
+/// Cells of equal size, from their vertices one after the other.
+vtkSmartPointer<vtkCellArray> EqualCells(vtkTypeInt64Array* connectivity, Index size)
+{
+  const Index count = connectivity->GetNumberOfValues() / size;
+  vtkNew<vtkTypeInt64Array> offsets;
+  offsets->SetNumberOfValues(count + 1);
+  for (Index i = 0; i <= count; ++i)
+  {
+    offsets->SetValue(i, i * size);
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+Index SetPoints(const std::vector<Particle>& particles, const GridFrame& frame, vtkPolyData* output)
+{
+  const Index count = Index(particles.size());
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(count);
+  for (Index i = 0; i < count; ++i)
+  {
+    points->SetPoint(i, frame.LocalToWorld(particles[i].Position).data());
+  }
+  output->SetPoints(points);
+  return count;
+}
+
+/// CellDimension, NumberOfMaterials and Materials of the points.
+void AddMaterialSets(
+  const std::vector<Particle>& particles, const std::vector<Material>& materials, vtkPointData* pointData)
+{
+  const Index count = Index(particles.size());
+  auto dimensions = NewArray<vtkUnsignedCharArray>(Names::CellDimension, 1, count);
+  auto numbers = NewArray<vtkUnsignedCharArray>(Names::NumberOfMaterials, 1, count);
+  auto sets = NewArray<vtkTypeInt64Array>(Names::Materials, MaterialSet::Capacity, count);
+  for (Index i = 0; i < count; ++i)
+  {
+    const MaterialSet& set = particles[i].Materials;
+    dimensions->SetValue(i, particles[i].CellDimension);
+    numbers->SetValue(i, static_cast<unsigned char>(set.Size()));
+    for (int c = 0; c < MaterialSet::Capacity; ++c)
+    {
+      const Label label = set.Size() > 0 ? materials[set[std::min(c, set.Size() - 1)]].Label : 0;
+      sets->SetTypedComponent(i, c, label);
+    }
+  }
+  pointData->AddArray(dimensions);
+  pointData->AddArray(numbers);
+  pointData->AddArray(sets);
+}
+
+/// A numeric array as the type that we need; a copy where it has another type.
+template <typename Array>
+vtkSmartPointer<Array> As(vtkDataArray* array)
+{
+  if (Array* same = Array::SafeDownCast(array))
+  {
+    return same;
+  }
+  auto copy = vtkSmartPointer<Array>::New();
+  copy->DeepCopy(array);
+  return copy;
+}
+
+vtkDataArray* RequiredArray(
+  vtkFieldData* data, const char* kind, const char* name, int components, const char* origin)
+{
+  vtkDataArray* array = data->GetArray(name);
+  if (!array)
+  {
+    throw std::invalid_argument(std::string("The input has no ") + kind + " array '" + name +
+      "'. Connect the output of " + origin + ".");
+  }
+  if (array->GetNumberOfComponents() != components)
+  {
+    throw std::invalid_argument(std::string("The ") + kind + " array '" + name + "' has " +
+      std::to_string(array->GetNumberOfComponents()) + " components, expected " + std::to_string(components) +
+      ". Connect the output of " + origin + ".");
+  }
+  return array;
+}
+
+/// Position of a label among materials that ascend by label; NoMaterial when it is not there.
+MaterialId FindMaterial(const std::vector<Material>& materials, Label label)
+{
+  const auto at = std::lower_bound(
+    materials.begin(), materials.end(), label, [](const Material& m, Label l) { return m.Label < l; });
+  return at != materials.end() && at->Label == label ? MaterialId(at - materials.begin()) : NoMaterial;
+}
+
+/// The material set of every point. Throws when a label is unknown.
+std::vector<MaterialSet> ReadSets(vtkDataArray* numberArray, vtkDataArray* setArray, const std::vector<Material>& materials)
+{
+  const auto numbers = As<vtkTypeInt64Array>(numberArray);
+  const auto labels = As<vtkTypeInt64Array>(setArray);
+  std::vector<MaterialSet> sets(static_cast<std::size_t>(labels->GetNumberOfTuples()));
+  for (Index i = 0; i < Index(sets.size()); ++i)
+  {
+    const Index number = numbers->GetValue(i);
+    if (number < 0 || number > MaterialSet::Capacity)
+    {
+      throw std::invalid_argument("Point " + std::to_string(i) + " has " + std::to_string(number) + " in '" +
+        Names::NumberOfMaterials + "', expected 0 to " + std::to_string(MaterialSet::Capacity) + ".");
+    }
+    for (int c = 0; c < int(number); ++c)
+    {
+      const Label label = labels->GetTypedComponent(i, c);
+      const MaterialId material = FindMaterial(materials, label);
+      if (material == NoMaterial)
+      {
+        throw std::invalid_argument("Point " + std::to_string(i) + " has the label " + std::to_string(label) + " in '" +
+          Names::Materials + "', which is not one of the collection's materials.");
+      }
+      sets[i].Insert(material);
+    }
+  }
+  return sets;
+}
+
+/// Only the vertices that a triangle has, in their order; `renumbered` maps old indices to new ones.
+std::vector<Particle> UsedVertices(const InterfaceMesh& mesh, std::vector<Index>& renumbered)
+{
+  renumbered.assign(mesh.Vertices.size(), -1);
+  for (const InterfaceTriangle& triangle : mesh.Triangles)
+  {
+    for (const Index v : triangle.Vertices)
+    {
+      renumbered[v] = 0;
+    }
+  }
+  std::vector<Particle> used;
+  used.reserve(mesh.Vertices.size());
+  for (std::size_t v = 0; v < mesh.Vertices.size(); ++v)
+  {
+    if (renumbered[v] == 0)
+    {
+      renumbered[v] = Index(used.size());
+      used.push_back(mesh.Vertices[v]);
+    }
+  }
+  return used;
+}
+
+/// Copies the tuples `ids` of every array.
+void CopyTuples(vtkFieldData* from, vtkIdList* ids, vtkFieldData* to)
+{
+  for (int a = 0; a < from->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* source = from->GetAbstractArray(a);
+    const auto copy = vtkSmartPointer<vtkAbstractArray>::Take(source->NewInstance());
+    copy->SetName(source->GetName());
+    copy->SetNumberOfComponents(source->GetNumberOfComponents());
+    copy->SetNumberOfTuples(ids->GetNumberOfIds());
+    if (ids->GetNumberOfIds() > 0)
+    {
+      source->GetTuples(ids, copy);
+    }
+    to->AddArray(copy);
+  }
+}
+
+/// The surface of material m: its triangles, turned so that normals point out of it.
+vtkSmartPointer<vtkPolyData> SurfaceOf(
+  MaterialId m, const std::vector<Index>& triangles, const InterfaceData& interface, vtkPolyData* mesh)
+{
+  const Index count = Index(triangles.size());
+  auto connectivity = NewArray<vtkTypeInt64Array>("", 1, 3 * count);
+  auto pairs = NewArray<vtkTypeInt64Array>(Names::BoundaryLabels, 2, count);
+  vtkNew<vtkIdList> cellIds;
+  cellIds->SetNumberOfIds(count);
+  std::vector<Index> used;
+  used.reserve(static_cast<std::size_t>(3 * count));
+  for (const Index t : triangles)
+  {
+    used.insert(used.end(), interface.Triangles[t].Vertices.begin(), interface.Triangles[t].Vertices.end());
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (Index i = 0; i < count; ++i)
+  {
+    const InterfaceTriangle& triangle = interface.Triangles[triangles[i]];
+    const bool first = triangle.Materials[0] == m;
+    const std::array<int, 3> order = first ? std::array<int, 3>{ 0, 1, 2 } : std::array<int, 3>{ 0, 2, 1 };
+    for (int c = 0; c < 3; ++c)
+    {
+      const auto at = std::lower_bound(used.begin(), used.end(), triangle.Vertices[order[c]]);
+      connectivity->SetValue(3 * i + c, at - used.begin());
+    }
+    pairs->SetTypedComponent(i, 0, interface.Materials[m].Label);
+    pairs->SetTypedComponent(i, 1, interface.Materials[triangle.Materials[first ? 1 : 0]].Label);
+    cellIds->SetId(i, triangles[i]);
+  }
+  vtkNew<vtkIdList> pointIds;
+  pointIds->SetNumberOfIds(Index(used.size()));
+  std::copy(used.begin(), used.end(), pointIds->GetPointer(0));
+
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(mesh->GetPoints() ? mesh->GetPoints()->GetDataType() : VTK_DOUBLE);
+  points->SetNumberOfPoints(pointIds->GetNumberOfIds());
+  if (!used.empty())
+  {
+    mesh->GetPoints()->GetPoints(pointIds, points);
+  }
+  surface->SetPoints(points);
+  surface->SetPolys(EqualCells(connectivity, 3));
+  CopyTuples(mesh->GetPointData(), pointIds, surface->GetPointData());
+  CopyTuples(mesh->GetCellData(), cellIds, surface->GetCellData());
+  surface->GetCellData()->AddArray(pairs);
+  return surface;
+}
+
+void AddMaterialFields(const Material& material, vtkFieldData* fieldData)
+{
+  auto label = NewArray<vtkTypeInt64Array>(Names::Label, 1, 1);
+  label->SetValue(0, material.Label);
+  fieldData->AddArray(label);
+  auto color = NewArray<vtkDoubleArray>(Names::Color, 3, 1);
+  color->SetTuple(0, material.Color.data());
+  fieldData->AddArray(color);
+}
+
+/// Adds the labels of the pairs to the materials that the field data names.
+void AddMissingMaterials(const std::vector<Label>& pairs, std::vector<Material>& materials)
+{
+  std::vector<Label> labels = pairs;
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  const std::size_t known = materials.size();
+  for (const Label label : labels)
+  {
+    if (std::none_of(materials.begin(), materials.begin() + known, [label](const Material& m) { return m.Label == label; }))
+    {
+      materials.push_back(DefaultMaterial(label));
+    }
+  }
+  std::sort(materials.begin(), materials.end(), [](const Material& a, const Material& b) { return a.Label < b.Label; });
+  if (materials.size() >= NoMaterial)
+  {
+    throw std::invalid_argument("The mesh has " + std::to_string(materials.size()) + " labels, at most " +
+      std::to_string(NoMaterial - 1) + " are possible.");
+  }
+}
+
+std::vector<std::array<Index, 3>> ReadTriangles(vtkPolyData* mesh)
+{
+  if (mesh->GetNumberOfVerts() + mesh->GetNumberOfLines() + mesh->GetNumberOfStrips() > 0)
+  {
+    throw std::invalid_argument("The interface mesh has vertex, line or strip cells; expected triangles only.");
+  }
+  std::vector<std::array<Index, 3>> triangles;
+  triangles.reserve(static_cast<std::size_t>(mesh->GetNumberOfPolys()));
+  vtkCellArray* cells = mesh->GetPolys();
+  vtkIdType size = 0;
+  const vtkIdType* vertices = nullptr;
+  for (cells->InitTraversal(); cells->GetNextCell(size, vertices);)
+  {
+    if (size != 3)
+    {
+      throw std::invalid_argument("The interface mesh has a polygon with " + std::to_string(size) +
+        " vertices; expected triangles only (the Triangulate filter makes them).");
+    }
+    triangles.push_back({ vertices[0], vertices[1], vertices[2] });
+  }
+  return triangles;
+}
+}
+
+void ParticlesToPolyData(const std::vector<Particle>& particles, const CollectionHeader& header, vtkPolyData* output)
+{
+  const Index count = SetPoints(particles, header.Source, output);
+  auto vertices = NewArray<vtkTypeInt64Array>("", 1, count);
+  auto lengths = NewArray<vtkDoubleArray>(Names::TargetLength, 1, count);
+  auto residuals = NewArray<vtkDoubleArray>(Names::Residual, 1, count);
+  auto normals = NewArray<vtkDoubleArray>(Names::Normal, 3, count);
+  for (Index i = 0; i < count; ++i)
+  {
+    vertices->SetValue(i, i);
+    lengths->SetValue(i, particles[i].TargetLength);
+    residuals->SetValue(i, particles[i].Residual);
+    normals->SetTuple(i, header.Source.VectorToWorld(particles[i].Normal).data());
+  }
+  output->SetVerts(EqualCells(vertices, 1));
+  AddMaterialSets(particles, header.Materials, output->GetPointData());
+  output->GetPointData()->AddArray(lengths);
+  output->GetPointData()->AddArray(residuals);
+  output->GetPointData()->AddArray(normals);
+  WriteMaterials(output->GetFieldData(), header.Materials, header.Background);
+}
+
+std::vector<Particle> ParticlesFromPolyData(vtkPolyData* input, const CollectionHeader& header)
+{
+  const char* origin = "Particle Sample Cells";
+  vtkPointData* data = input->GetPointData();
+  const auto dimensions = As<vtkTypeInt64Array>(RequiredArray(data, "point", Names::CellDimension, 1, origin));
+  const auto lengths = As<vtkDoubleArray>(RequiredArray(data, "point", Names::TargetLength, 1, origin));
+  const auto residuals = As<vtkDoubleArray>(RequiredArray(data, "point", Names::Residual, 1, origin));
+  const auto normals = As<vtkDoubleArray>(RequiredArray(data, "point", Names::Normal, 3, origin));
+  vtkDataArray* setArray = RequiredArray(data, "point", Names::Materials, MaterialSet::Capacity, origin);
+  vtkDataArray* numberArray = RequiredArray(data, "point", Names::NumberOfMaterials, 1, origin);
+  const std::vector<MaterialSet> sets = ReadSets(numberArray, setArray, header.Materials);
+  std::vector<Particle> particles(static_cast<std::size_t>(input->GetNumberOfPoints()));
+  for (Index i = 0; i < Index(particles.size()); ++i)
+  {
+    Particle& particle = particles[i];
+    Vec3 world, normal;
+    input->GetPoint(i, world.data());
+    normals->GetTuple(i, normal.data());
+    if (!world.allFinite())
+    {
+      throw std::invalid_argument("The position of point " + std::to_string(i) + " is not finite.");
+    }
+    particle.Position = header.Source.WorldToLocal(world);
+    particle.Normal = header.Source.Direction().transpose() * normal;
+    particle.TargetLength = lengths->GetValue(i);
+    particle.Residual = residuals->GetValue(i);
+    particle.Materials = sets[i];
+    particle.CellDimension = static_cast<std::uint8_t>(dimensions->GetValue(i));
+  }
+  return particles;
+}
+
+void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Particle>& particles,
+  const CollectionHeader& header, vtkPolyData* output)
+{
+  std::vector<Index> renumbered(particles.size(), -1);
+  std::vector<Particle> used;
+  vtkNew<vtkCellArray> lines;
+  auto triples = NewArray<vtkTypeInt64Array>(Names::Materials, 3, Index(curves.size()));
+  for (std::size_t c = 0; c < curves.size(); ++c)
+  {
+    lines->InsertNextCell(vtkIdType(curves[c].Particles.size()));
+    for (const Index p : curves[c].Particles)
+    {
+      if (renumbered[p] < 0)
+      {
+        renumbered[p] = Index(used.size());
+        used.push_back(particles[p]);
+      }
+      lines->InsertCellPoint(renumbered[p]);
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const MaterialId material = curves[c].Materials[k];
+      triples->SetTypedComponent(Index(c), k, header.Materials[material].Label);
+    }
+  }
+  SetPoints(used, header.Source, output);
+  output->SetLines(lines);
+  output->GetCellData()->AddArray(triples);
+  WriteMaterials(output->GetFieldData(), header.Materials, header.Background);
+}
+
+bool OrderPair(std::array<Label, 2>& pair, Label background)
+{
+  const bool turn = pair[1] != background && (pair[0] == background || pair[0] > pair[1]);
+  if (turn)
+  {
+    std::swap(pair[0], pair[1]);
+  }
+  return turn;
+}
+
+void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output)
+{
+  std::vector<Index> renumbered;
+  const std::vector<Particle> vertices = UsedVertices(mesh, renumbered);
+  SetPoints(vertices, header.Source, output);
+  const Index count = Index(mesh.Triangles.size());
+  auto connectivity = NewArray<vtkTypeInt64Array>("", 1, 3 * count);
+  auto pairs = NewArray<vtkTypeInt64Array>(Names::BoundaryLabels, 2, count);
+  auto ratios = NewArray<vtkDoubleArray>(Names::RadiusRatio, 1, count);
+  const bool mirrored = header.Source.Mirrored();
+  for (Index i = 0; i < count; ++i)
+  {
+    const InterfaceTriangle& triangle = mesh.Triangles[i];
+    std::array<Label, 2> pair = { header.Materials[triangle.Materials[0]].Label,
+      header.Materials[triangle.Materials[1]].Label };
+    // A mirroring turns the right-hand rule around, and so does reading the pair backwards.
+    const bool turn = OrderPair(pair, header.Background) != mirrored;
+    const std::array<Index, 3>& v = triangle.Vertices;
+    connectivity->SetValue(3 * i, renumbered[v[0]]);
+    connectivity->SetValue(3 * i + 1, renumbered[v[turn ? 2 : 1]]);
+    connectivity->SetValue(3 * i + 2, renumbered[v[turn ? 1 : 2]]);
+    pairs->SetTypedComponent(i, 0, pair[0]);
+    pairs->SetTypedComponent(i, 1, pair[1]);
+    ratios->SetValue(
+      i, RadiusRatio(mesh.Vertices[v[0]].Position, mesh.Vertices[v[1]].Position, mesh.Vertices[v[2]].Position));
+  }
+  output->SetPolys(EqualCells(connectivity, 3));
+  output->GetCellData()->AddArray(pairs);
+  output->GetCellData()->AddArray(ratios);
+  AddMaterialSets(vertices, header.Materials, output->GetPointData());
+  WriteMaterials(output->GetFieldData(), header.Materials, header.Background);
+}
+
+InterfaceData ReadInterface(vtkPolyData* mesh)
+{
+  InterfaceData data;
+  const std::vector<std::array<Index, 3>> triangles = ReadTriangles(mesh);
+  data.Materials = mesh->GetFieldData()->GetAbstractArray(Names::Labels) ? ReadMaterials(mesh->GetFieldData())
+                                                                          : std::vector<Material>();
+  if (vtkDataArray* background = mesh->GetFieldData()->GetArray(Names::BackgroundLabel))
+  {
+    data.Background = As<vtkTypeInt64Array>(background)->GetValue(0);
+  }
+  vtkDataArray* pairArray = mesh->GetCellData()->GetArray(Names::BoundaryLabels);
+  if (triangles.empty() && !pairArray)
+  {
+    return data; // an empty mesh needs no arrays
+  }
+  const auto pairs = As<vtkTypeInt64Array>(RequiredArray(
+    mesh->GetCellData(), "cell", Names::BoundaryLabels, 2, "Delaunay Label Mesh, Grid Label Mesh or Label Mesher"));
+  const vtkTypeInt64* values = pairs->GetPointer(0);
+  const std::vector<Label> labels(values, values + 2 * triangles.size());
+  AddMissingMaterials(labels, data.Materials);
+  data.Triangles.resize(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    data.Triangles[t].Vertices = triangles[t];
+    data.Triangles[t].Materials = { FindMaterial(data.Materials, labels[2 * t]),
+      FindMaterial(data.Materials, labels[2 * t + 1]) };
+  }
+  data.Points.resize(static_cast<std::size_t>(mesh->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < data.Points.size(); ++i)
+  {
+    mesh->GetPoint(vtkIdType(i), data.Points[i].data());
+  }
+  vtkDataArray* sets = mesh->GetPointData()->GetArray(Names::Materials);
+  vtkDataArray* numbers = mesh->GetPointData()->GetArray(Names::NumberOfMaterials);
+  if (sets && numbers && sets->GetNumberOfComponents() == MaterialSet::Capacity)
+  {
+    data.Sets = ReadSets(numbers, sets, data.Materials);
+  }
+  return data;
+}
+
+void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output)
+{
+  const InterfaceData interface = ReadInterface(interfaceMesh);
+  std::vector<std::vector<Index>> triangles(interface.Materials.size());
+  for (std::size_t t = 0; t < interface.Triangles.size(); ++t)
+  {
+    const auto& pair = interface.Triangles[t].Materials;
+    if (pair[0] != pair[1])
+    {
+      triangles[pair[0]].push_back(Index(t));
+      triangles[pair[1]].push_back(Index(t));
+    }
+  }
+  output->Initialize();
+  vtkNew<vtkDataAssembly> assembly;
+  assembly->Initialize();
+  assembly->SetRootNodeName(Names::SurfacesRoot);
+  unsigned int block = 0;
+  for (std::size_t m = 0; m < interface.Materials.size(); ++m)
+  {
+    const Material& material = interface.Materials[m];
+    if (material.Label == interface.Background)
+    {
+      continue;
+    }
+    const auto surface = SurfaceOf(MaterialId(m), triangles[m], interface, interfaceMesh);
+    AddMaterialFields(material, surface->GetFieldData());
+    output->SetPartition(block, 0, surface);
+    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), material.Name.c_str());
+    const int node = assembly->AddNode(vtkDataAssembly::MakeValidNodeName(material.Name.c_str()).c_str());
+    assembly->AddDataSetIndex(node, block);
+    ++block;
+  }
+  output->SetDataAssembly(assembly);
+  WriteMaterials(output->GetFieldData(), interface.Materials, interface.Background);
+}
+}
