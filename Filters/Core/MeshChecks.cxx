@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshChecks.h"
+
+#include "Parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace LabelMesh
+{
+namespace
+{
+constexpr double DegenerateRatio = 1e-10;
+
+/// Sums ratios and areas in the order in which triangles are added.
+struct QualitySum
+{
+  TriangleQuality Quality;
+  double Ratios = 0.0;
+
+  void Add(double ratio, double area)
+  {
+    ++this->Quality.Triangles;
+    this->Ratios += ratio;
+    this->Quality.MinRadiusRatio = std::min(this->Quality.MinRadiusRatio, ratio);
+    this->Quality.Area += area;
+  }
+  TriangleQuality Result() const
+  {
+    TriangleQuality result = this->Quality;
+    result.MeanRadiusRatio = result.Triangles > 0 ? this->Ratios / double(result.Triangles) : 1.0;
+    return result;
+  }
+};
+
+/// One use of an edge by a triangle: vertices ascending, and which way the triangle walks along it.
+struct EdgeUse
+{
+  Index Low, High;
+  Index Triangle; ///< of the surface
+  int Low3, High3; ///< the corners of the triangle where Low and High are
+  bool Forward;
+
+  bool operator<(const EdgeUse& other) const
+  {
+    return std::tie(this->Low, this->High, this->Triangle, this->Low3) <
+      std::tie(other.Low, other.High, other.Triangle, other.Low3);
+  }
+};
+
+class DisjointSets
+{
+public:
+  explicit DisjointSets(Index size)
+    : Parents(static_cast<std::size_t>(size))
+  {
+    std::iota(this->Parents.begin(), this->Parents.end(), Index(0));
+  }
+  Index Find(Index i)
+  {
+    while (this->Parents[i] != i)
+    {
+      i = this->Parents[i] = this->Parents[this->Parents[i]];
+    }
+    return i;
+  }
+  void Unite(Index a, Index b)
+  {
+    a = this->Find(a);
+    b = this->Find(b);
+    this->Parents[std::max(a, b)] = std::min(a, b);
+  }
+
+private:
+  std::vector<Index> Parents;
+};
+
+using Corners = std::array<Index, 3>;
+
+std::vector<EdgeUse> SortedEdges(const std::vector<Corners>& surface)
+{
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * surface.size());
+  for (std::size_t t = 0; t < surface.size(); ++t)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      const int d = (c + 1) % 3;
+      const Index from = surface[t][c], to = surface[t][d];
+      uses.push_back(from < to ? EdgeUse{ from, to, Index(t), c, d, true } : EdgeUse{ to, from, Index(t), d, c, false });
+    }
+  }
+  std::sort(uses.begin(), uses.end());
+  return uses;
+}
+
+/// Edge counts; returns the number of edges and unites, in `fans`, the corners of triangles that share an edge.
+Index CheckEdges(const std::vector<EdgeUse>& uses, MaterialCheck& check, DisjointSets& fans)
+{
+  Index edges = 0;
+  for (std::size_t first = 0, last = 0; first < uses.size(); first = last)
+  {
+    Index forward = 0;
+    for (last = first; last < uses.size() && uses[last].Low == uses[first].Low && uses[last].High == uses[first].High; ++last)
+    {
+      forward += uses[last].Forward ? 1 : 0;
+      fans.Unite(3 * uses[first].Triangle + uses[first].Low3, 3 * uses[last].Triangle + uses[last].Low3);
+      fans.Unite(3 * uses[first].Triangle + uses[first].High3, 3 * uses[last].Triangle + uses[last].High3);
+    }
+    const Index count = Index(last - first);
+    ++edges;
+    check.OpenEdges += count % 2;
+    check.NonManifoldEdges += count % 2 == 0 && count > 2 ? 1 : 0;
+    check.MisorientedEdges += count % 2 == 0 && 2 * forward != count ? 1 : 0;
+  }
+  return edges;
+}
+
+/// Vertices, fans and components.
+void CheckVertices(const std::vector<Corners>& surface, MaterialCheck& check, DisjointSets& fans)
+{
+  std::vector<std::pair<Index, Index>> corners; // (vertex, its fan)
+  corners.reserve(3 * surface.size());
+  for (Index t = 0; t < Index(surface.size()); ++t)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      corners.emplace_back(surface[t][c], fans.Find(3 * t + c));
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  DisjointSets pieces(Index(surface.size()));
+  for (std::size_t first = 0, last = 0; first < corners.size(); first = last)
+  {
+    bool oneFan = true;
+    for (last = first; last < corners.size() && corners[last].first == corners[first].first; ++last)
+    {
+      oneFan = oneFan && corners[last].second == corners[first].second;
+      pieces.Unite(corners[first].second / 3, corners[last].second / 3);
+    }
+    ++check.Vertices;
+    check.NonManifoldVertices += oneFan ? 0 : 1;
+  }
+  // A fan's root names a triangle of the fan, so its triangles must be united with it too.
+  for (Index t = 0; t < Index(surface.size()); ++t)
+  {
+    for (int c = 0; c < 3; ++c)
+    {
+      pieces.Unite(t, fans.Find(3 * t + c) / 3);
+    }
+  }
+  for (Index t = 0; t < Index(surface.size()); ++t)
+  {
+    check.Components += pieces.Find(t) == t ? 1 : 0;
+  }
+}
+
+/// Volume enclosed by outward triangles, about a point near them: far from the origin digits would cancel.
+double EnclosedVolume(const std::vector<Corners>& surface, const std::vector<Vec3>& points)
+{
+  if (surface.empty())
+  {
+    return 0.0;
+  }
+  const Vec3 origin = points[surface[0][0]];
+  double sixfold = 0.0;
+  for (const Corners& t : surface)
+  {
+    sixfold += (points[t[0]] - origin).dot((points[t[1]] - origin).cross(points[t[2]] - origin));
+  }
+  return sixfold / 6.0;
+}
+
+void CheckSurface(const std::vector<Corners>& surface, const std::vector<Vec3>& points, MaterialCheck& check)
+{
+  DisjointSets fans(3 * Index(surface.size()));
+  const Index edges = CheckEdges(SortedEdges(surface), check, fans);
+  CheckVertices(surface, check, fans);
+  check.Euler = check.Vertices - edges + Index(surface.size());
+  check.Volume = EnclosedVolume(surface, points);
+}
+
+void RequireIndices(const std::vector<InterfaceTriangle>& triangles, Index points, int materials)
+{
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    for (const Index v : triangles[t].Vertices)
+    {
+      if (v < 0 || v >= points)
+      {
+        throw std::invalid_argument("triangle " + std::to_string(t) + " has the point " + std::to_string(v) + " of " +
+          std::to_string(points));
+      }
+    }
+    for (const MaterialId m : triangles[t].Materials)
+    {
+      if (m >= materials)
+      {
+        throw std::invalid_argument("triangle " + std::to_string(t) + " has the material " + std::to_string(m) + " of " +
+          std::to_string(materials));
+      }
+    }
+  }
+}
+
+Index CountDuplicates(const std::vector<InterfaceTriangle>& triangles)
+{
+  std::vector<Corners> sorted;
+  sorted.reserve(triangles.size());
+  for (const InterfaceTriangle& t : triangles)
+  {
+    sorted.push_back(t.Vertices);
+    std::sort(sorted.back().begin(), sorted.back().end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  return Index(sorted.end() - std::unique(sorted.begin(), sorted.end()));
+}
+
+Index CountVertices(const std::vector<InterfaceTriangle>& triangles, std::size_t points)
+{
+  std::vector<bool> used(points, false);
+  for (const InterfaceTriangle& t : triangles)
+  {
+    for (const Index v : t.Vertices)
+    {
+      used[v] = true;
+    }
+  }
+  return Index(std::count(used.begin(), used.end(), true));
+}
+
+bool IsWrong(const InterfaceTriangle& triangle, const std::vector<MaterialSet>& sets)
+{
+  return std::any_of(triangle.Vertices.begin(), triangle.Vertices.end(), [&](Index v)
+    { return !sets[v].Contains(triangle.Materials[0]) || !sets[v].Contains(triangle.Materials[1]); });
+}
+
+/// Ratios and areas of all, of each material and of each pair.
+void MeasureQuality(const std::vector<Vec3>& points, const std::vector<InterfaceTriangle>& triangles, MeshCheck& check)
+{
+  QualitySum all;
+  std::vector<QualitySum> materials(check.Materials.size());
+  std::vector<std::pair<std::array<MaterialId, 2>, std::size_t>> order;
+  std::vector<std::array<double, 2>> measures; // ratio, area
+  order.reserve(triangles.size());
+  measures.reserve(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    const Vec3 &a = points[triangles[t].Vertices[0]], &b = points[triangles[t].Vertices[1]],
+               &c = points[triangles[t].Vertices[2]];
+    measures.push_back({ RadiusRatio(a, b, c), 0.5 * (b - a).cross(c - a).norm() });
+    all.Add(measures[t][0], measures[t][1]);
+    check.DegenerateTriangles += measures[t][0] < DegenerateRatio ? 1 : 0;
+    std::array<MaterialId, 2> pair = triangles[t].Materials;
+    std::sort(pair.begin(), pair.end());
+    materials[pair[0]].Add(measures[t][0], measures[t][1]);
+    materials[pair[1]].Add(measures[t][0], measures[t][1]);
+    order.emplace_back(pair, t);
+  }
+  check.Quality = all.Result();
+  for (std::size_t m = 0; m < materials.size(); ++m)
+  {
+    check.Materials[m].Quality = materials[m].Result();
+  }
+  std::sort(order.begin(), order.end());
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last)
+  {
+    QualitySum sum;
+    for (last = first; last < order.size() && order[last].first == order[first].first; ++last)
+    {
+      sum.Add(measures[order[last].second][0], measures[order[last].second][1]);
+    }
+    check.Pairs.push_back({ order[first].first, sum.Result() });
+  }
+}
+}
+
+MeshCheck CheckMesh(const std::vector<Vec3>& points, const std::vector<InterfaceTriangle>& triangles,
+  int numberOfMaterials, const std::vector<MaterialSet>& sets)
+{
+  RequireIndices(triangles, Index(points.size()), numberOfMaterials);
+  MeshCheck check;
+  check.Materials.resize(static_cast<std::size_t>(numberOfMaterials));
+  std::vector<InterfaceTriangle> proper;
+  proper.reserve(triangles.size());
+  for (const InterfaceTriangle& t : triangles)
+  {
+    if (t.Materials[0] == t.Materials[1])
+    {
+      ++check.SameMaterialTriangles;
+      continue;
+    }
+    proper.push_back(t);
+    check.WrongFaces += !sets.empty() && IsWrong(t, sets) ? 1 : 0;
+  }
+  check.DuplicateTriangles = CountDuplicates(proper);
+  check.Vertices = CountVertices(proper, points.size());
+  MeasureQuality(points, proper, check);
+
+  std::vector<std::vector<Corners>> surfaces(check.Materials.size());
+  for (const InterfaceTriangle& t : proper)
+  {
+    // The normal points out of the first material and into the second.
+    surfaces[t.Materials[0]].push_back(t.Vertices);
+    surfaces[t.Materials[1]].push_back({ t.Vertices[0], t.Vertices[2], t.Vertices[1] });
+  }
+  ParallelFor(0, Index(surfaces.size()), 1,
+    [&](Index first, Index last)
+    {
+      for (Index m = first; m < last; ++m)
+      {
+        CheckSurface(surfaces[m], points, check.Materials[m]);
+      }
+    });
+  return check;
+}
+}
