@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelImage.h"
+
+#include "IndicatorCollection.h"
+
+#include <vtkArrayDispatch.h>
+#include <vtkDataArray.h>
+#include <vtkDataArrayRange.h>
+#include <vtkImageData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace LabelMesh
+{
+namespace
+{
+template <typename T>
+Label ToLabel(T value)
+{
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    // 2^63 is the first double that does not fit.
+    if (!(std::abs(value) < T(9.2e18)) || value != std::floor(value))
+    {
+      throw std::invalid_argument("holds " + std::to_string(value) + ", which is not an integer label");
+    }
+  }
+  return static_cast<Label>(value);
+}
+
+/// Labels that occur, and the id of each sample. Runs of equal labels are long, so the last one is remembered.
+struct IdWorker
+{
+  LabelImage* Image;
+
+  template <typename Array>
+  void operator()(Array* array)
+  {
+    const auto values = vtk::DataArrayValueRange<1>(array);
+    std::set<Label> found;
+    Label last = 0;
+    bool any = false;
+    for (const auto value : values)
+    {
+      const Label label = ToLabel(static_cast<vtk::GetAPIType<Array>>(value));
+      if (!any || label != last)
+      {
+        found.insert(label);
+        last = label;
+        any = true;
+      }
+    }
+    if (found.size() >= NoMaterial)
+    {
+      throw std::invalid_argument("has " + std::to_string(found.size()) + " labels, at most " +
+        std::to_string(NoMaterial - 1) + " are possible");
+    }
+    std::vector<Label>& labels = this->Image->Labels;
+    labels.assign(found.begin(), found.end());
+    this->Image->Ids.resize(static_cast<std::size_t>(values.size()));
+    MaterialId id = 0;
+    Index at = 0;
+    for (const auto value : values)
+    {
+      const Label label = static_cast<Label>(static_cast<vtk::GetAPIType<Array>>(value));
+      if (labels[id] != label)
+      {
+        id = MaterialId(std::lower_bound(labels.begin(), labels.end(), label) - labels.begin());
+      }
+      this->Image->Ids[at++] = id;
+    }
+  }
+};
+
+GridFrame FrameOfCells(const GridFrame& points)
+{
+  std::array<int, 6> extent = points.Extent();
+  for (int a = 0; a < 3; ++a)
+  {
+    --extent[2 * a + 1];
+  }
+  return GridFrame(extent, points.ToWorld(0.5, 0.5, 0.5), points.Spacing(), points.Direction());
+}
+
+void RequireThreeDimensions(const GridFrame& frame)
+{
+  const std::array<int, 3> dims = frame.Samples().Dims;
+  if (std::min({ dims[0], dims[1], dims[2] }) < 2)
+  {
+    throw std::invalid_argument("The label image has " + std::to_string(dims[0]) + " x " + std::to_string(dims[1]) +
+      " x " + std::to_string(dims[2]) + " samples; expected a volume with two or more along each axis.");
+  }
+}
+}
+
+LabelImage ReadLabelImage(vtkImageData* image, vtkDataArray* array, bool cellData)
+{
+  if (!image || image->GetNumberOfPoints() == 0)
+  {
+    throw std::invalid_argument("The label image is empty; expected a volume of labels.");
+  }
+  if (!array)
+  {
+    throw std::invalid_argument("The label image has no array of labels; choose a point or cell array of integers.");
+  }
+  const std::string name = array->GetName() ? array->GetName() : "labels";
+  if (array->GetNumberOfComponents() != 1)
+  {
+    throw std::invalid_argument("The array '" + name + "' has " + std::to_string(array->GetNumberOfComponents()) +
+      " components; expected one label per voxel.");
+  }
+  LabelImage result;
+  const GridFrame points = FrameOf(image);
+  RequireThreeDimensions(points);
+  result.Frame = cellData ? FrameOfCells(points) : points;
+  if (result.Frame.Samples().Size() != array->GetNumberOfTuples())
+  {
+    throw std::invalid_argument("The array '" + name + "' has " + std::to_string(array->GetNumberOfTuples()) +
+      " values for " + std::to_string(result.Frame.Samples().Size()) + " voxels.");
+  }
+  IdWorker worker{ &result };
+  try
+  {
+    if (!vtkArrayDispatch::Dispatch::Execute(array, worker))
+    {
+      worker(array);
+    }
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw std::invalid_argument("The array '" + name + "' " + error.what() + ".");
+  }
+  return result;
+}
+
+void MergeIntoBackground(LabelImage& image, const std::vector<Label>& kept, Label background)
+{
+  std::set<Label> labels = { background };
+  for (const Label label : image.Labels)
+  {
+    if (std::binary_search(kept.begin(), kept.end(), label))
+    {
+      labels.insert(label);
+    }
+  }
+  const std::vector<Label> merged(labels.begin(), labels.end());
+  std::vector<MaterialId> renumbered;
+  for (const Label label : image.Labels)
+  {
+    const auto at = std::lower_bound(merged.begin(), merged.end(), labels.count(label) ? label : background);
+    renumbered.push_back(MaterialId(at - merged.begin()));
+  }
+  for (MaterialId& id : image.Ids)
+  {
+    id = renumbered[id];
+  }
+  image.Labels = merged;
+}
+
+LabelCounts CountLabels(const LabelImage& image, Label background)
+{
+  LabelCounts counts;
+  counts.Voxels.assign(image.Labels.size(), 0);
+  const Lattice lattice = image.Frame.Samples();
+  const std::array<int, 3>& dims = lattice.Dims;
+  const std::array<Index, 3> step = { 1, dims[0], Index(dims[0]) * dims[1] };
+  std::map<std::array<Label, 2>, Index> faces;
+  const auto contact = [&faces](Label a, Label b)
+  {
+    if (a != b)
+    {
+      ++faces[{ std::min(a, b), std::max(a, b) }];
+    }
+  };
+  std::array<Index, 3> i;
+  for (i[2] = 0; i[2] < dims[2]; ++i[2])
+  {
+    for (i[1] = 0; i[1] < dims[1]; ++i[1])
+    {
+      for (i[0] = 0; i[0] < dims[0]; ++i[0])
+      {
+        const Index at = lattice.At(i[0], i[1], i[2]);
+        const MaterialId id = image.Ids[at];
+        ++counts.Voxels[id];
+        for (int a = 0; a < 3; ++a)
+        {
+          const bool border = i[a] + 1 == dims[a];
+          if (i[a] == 0)
+          {
+            contact(image.Labels[id], background);
+          }
+          if (border || image.Ids[at + step[a]] != id)
+          {
+            contact(image.Labels[id], border ? background : image.Labels[image.Ids[at + step[a]]]);
+          }
+        }
+      }
+    }
+  }
+  for (const auto& entry : faces)
+  {
+    counts.Contacts.push_back({ entry.first, entry.second });
+  }
+  return counts;
+}
+}

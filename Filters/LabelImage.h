@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Label images at the door: any numeric array becomes compact ids.
+#ifndef LabelImage_h
+#define LabelImage_h
+
+#include "Core/GridFrame.h"
+
+#include <array>
+#include <vector>
+
+class vtkDataArray;
+class vtkImageData;
+
+namespace LabelMesh
+{
+struct LabelImage
+{
+  GridFrame Frame;                ///< of the samples; those of cell data lie at the cells' centres
+  std::vector<Label> Labels;      ///< ascending; those that occur
+  std::vector<MaterialId> Ids;    ///< per sample, x fastest: positions in Labels
+};
+
+/// Reads the labels of a point array (or a cell array) of an image: any integer type, or floats that hold integers.
+/// Throws std::invalid_argument with a sentence for the user: no array, several components, a fraction, an image that is
+/// not three-dimensional, or more labels than ids.
+LabelImage ReadLabelImage(vtkImageData* image, vtkDataArray* array, bool cellData);
+
+/// Gives every label that is not in `kept` (ascending) the background's label, which may be new to the image.
+void MergeIntoBackground(LabelImage& image, const std::vector<Label>& kept, Label background);
+
+/// How many samples each label has, and how many faces of voxels lie between each two labels.
+struct LabelCounts
+{
+  struct Contact
+  {
+    std::array<Label, 2> Labels; ///< ascending
+    Index Faces = 0;
+  };
+  std::vector<Index> Voxels; ///< by id
+  std::vector<Contact> Contacts;
+};
+
+/// Space outside the image counts as background.
+LabelCounts CountLabels(const LabelImage& image, Label background);
+}
+
+#endif
