@@ -7,7 +7,9 @@
 
 #include <vtkSMPTools.h>
 
+#include <algorithm>
 #include <functional>
+#include <vector>
 
 namespace LabelMesh
 {
@@ -21,6 +23,33 @@ void ParallelFor(Index begin, Index end, Index grain, Body&& body)
   {
     vtkSMPTools::For(begin, end, grain, [&body](vtkIdType first, vtkIdType last) { body(Index(first), Index(last)); });
   }
+}
+
+/// Calls body(n, found) for each n in [0, count), which appends what it finds; returns all, in the order of n.
+template <typename T, typename Body>
+std::vector<T> ParallelCollect(Index count, Body&& body)
+{
+  std::vector<std::vector<T>> parts(static_cast<std::size_t>(std::max<Index>(count, 0)));
+  ParallelFor(0, count, 1,
+    [&](Index first, Index last)
+    {
+      for (Index n = first; n < last; ++n)
+      {
+        body(n, parts[n]);
+      }
+    });
+  std::size_t total = 0;
+  for (const auto& part : parts)
+  {
+    total += part.size();
+  }
+  std::vector<T> all;
+  all.reserve(total);
+  for (const auto& part : parts)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
 }
 
 /// Runs `work` with threads switched on. ParaView's VTK starts with a sequential backend, so a filter that only

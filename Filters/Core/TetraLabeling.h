@@ -1,35 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From particles to the interface mesh: Delaunay tetrahedra, their labels, the faces between different labels, repair
-// (paper, sections 4.3 and 5.3).
+// Labels of Delaunay tetrahedra, and the interface faces between different labels (paper, sections 4.3 and 5.3).
 #ifndef LabelMesh_Core_TetraLabeling_h
 #define LabelMesh_Core_TetraLabeling_h
 
+#include "Delaunay.h"
 #include "IndicatorSet.h"
 #include "InterfaceMesh.h"
-#include "Monitor.h"
 
 namespace LabelMesh
 {
-struct MeshOptions
+struct TetraLabels
 {
-  int RepairRounds = 6;
-  double RepairBelow = 0.35; ///< radius ratio under which a triangle is repaired
+  std::vector<MaterialId> Labels;
+  /// How much larger the label's indicator is than that of the next material that all four corners share; the largest
+  /// double where there is no other.
+  std::vector<double> Certainty;
+  Index EmptySets = 0; ///< tetrahedra whose corners share no material: undersampling at a 1-cell
 };
 
-struct MeshResult
-{
-  InterfaceMesh Mesh;
-  Index Tetrahedra = 0;
-  Index WrongFaces = 0;       ///< faces whose two materials are not in all their vertices' sets
-  Index NonManifoldEdges = 0; ///< edges that some material's surface uses other than twice
-  Index NonManifoldVertices = 0;
-  int Rounds = 0;
-  double WorstRatio = 1.0;
-};
+/// The label of a tetrahedron is the material with the largest indicator at its circumcentre among those that are in the
+/// sets of all four corners, so that no face crosses an interface. The paper asks the circumcentre alone.
+TetraLabels LabelTetrahedra(
+  const IndicatorSet& indicators, const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra);
 
-/// Throws std::runtime_error when the tetrahedralisation fails.
-MeshResult MeshInterfaces(const IndicatorSet& indicators, const std::vector<Particle>& particles,
-  const MeshOptions& options, const Monitor& monitor);
+/// Relabels tetrahedra around edges where a material's surface would not be manifold: the arc of equal labels whose
+/// certainty is least goes to an allowed neighbour's label. Returns how many edges stayed non-manifold.
+Index UntieEdges(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
+  TetraLabels& labels);
+
+/// The faces between tetrahedra of different labels; beyond the hull is `outside`. Vertices are the particles' indices.
+std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
+  const Tetrahedralization& tetrahedra, const TetraLabels& labels, MaterialId outside);
+
+Vec3 Circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 }
 
 #endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Delaunay.h"
+
+#define TETLIBRARY
+#include <tetgen.h>
+
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+namespace LabelMesh
+{
+namespace
+{
+std::string Reason(int code)
+{
+  switch (code)
+  {
+    case 1:
+      return "out of memory";
+    case 2:
+      return "an internal error";
+    case 3:
+      return "a self-intersection";
+    case 4:
+      return "a feature below its tolerance";
+    case 5:
+      return "two nearly coincident facets";
+    case 10:
+      return "an input error";
+    default:
+      return "error " + std::to_string(code);
+  }
+}
+
+bool SpansSpace(const std::vector<Vec3>& points)
+{
+  // TetGen prints and throws on planar input; four points that span a volume are all that is asked for.
+  std::size_t n = 1;
+  const auto next = [&](auto&& independent)
+  {
+    while (n < points.size() && !independent(points[n] - points[0]))
+    {
+      ++n;
+    }
+    return n < points.size();
+  };
+  Vec3 first, normal;
+  return points.size() >= 4 &&
+    next(
+      [&](const Vec3& v)
+      {
+        first = v;
+        return v.squaredNorm() > 0;
+      }) &&
+    next(
+      [&](const Vec3& v)
+      {
+        normal = Vec3(first[1] * v[2] - first[2] * v[1], first[2] * v[0] - first[0] * v[2], first[0] * v[1] - first[1] * v[0]);
+        return normal.squaredNorm() > 1e-24 * first.squaredNorm() * v.squaredNorm();
+      }) &&
+    next([&](const Vec3& v) { return std::abs(normal.dot(v)) > 1e-12 * normal.norm() * v.norm(); });
+}
+}
+
+Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points)
+{
+  static std::mutex tetgenIsNotThreadSafe;
+  Tetrahedralization result;
+  if (!SpansSpace(points))
+  {
+    return result;
+  }
+  if (points.size() > std::size_t(std::numeric_limits<int>::max() / 16))
+  {
+    throw std::runtime_error("too many points for TetGen: " + std::to_string(points.size()));
+  }
+  tetgenio input, output;
+  input.numberofpoints = int(points.size());
+  input.pointlist = new REAL[3 * points.size()];
+  for (std::size_t n = 0; n < points.size(); ++n)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      input.pointlist[3 * n + a] = points[n][a];
+    }
+  }
+  // Q quiet, n neighbours, N E F: no copies of points, edges, faces.
+  char switches[] = "QnNEF";
+  try
+  {
+    const std::lock_guard<std::mutex> lock(tetgenIsNotThreadSafe);
+    tetrahedralize(switches, &input, &output);
+  }
+  catch (int code)
+  {
+    throw std::runtime_error("TetGen could not tetrahedralise " + std::to_string(points.size()) + " points: " + Reason(code));
+  }
+  result.Corners.resize(output.numberoftetrahedra);
+  result.Neighbors.resize(output.numberoftetrahedra);
+  for (int t = 0; t < output.numberoftetrahedra; ++t)
+  {
+    for (int c = 0; c < 4; ++c)
+    {
+      result.Corners[t][c] = output.tetrahedronlist[t * output.numberofcorners + c];
+      result.Neighbors[t][c] = output.neighborlist[4 * t + c];
+    }
+  }
+  return result;
+}
+}

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceSampling.h"
+
+#include "Parallel.h"
+#include "Relaxation.h"
+
+#include <numeric>
+
+namespace LabelMesh
+{
+namespace
+{
+/// Random bits from (seed, index): the same for any number of threads.
+std::uint64_t RandomBits(std::uint64_t seed, std::uint64_t index)
+{
+  std::uint64_t z = seed * 0xD1B54A32D192ED03ull + index * 0x9E3779B97F4A7C15ull;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+  return z ^ (z >> 31);
+}
+double RandomUnit(std::uint64_t seed, std::uint64_t index)
+{
+  return double(RandomBits(seed, index) >> 11) * 0x1.0p-53;
+}
+
+/// How many candidates an edge gives: one is enough while a voxel is no longer than a target length.
+int CandidatesPerEdge(double voxel, double h)
+{
+  const double ratio = 1.3 * voxel / h;
+  return std::clamp(int(std::ceil(ratio * ratio)), 1, 12);
+}
+
+class CandidateFinder
+{
+public:
+  CandidateFinder(const IndicatorSet& indicators, const Grid<float>& targetLength, std::uint32_t seed)
+    : Indicators(indicators)
+    , TargetLength(targetLength)
+    , Seed(seed)
+  {
+  }
+
+  std::vector<Particle> Run() const
+  {
+    return ParallelCollect<Particle>(this->Indicators.Working().Dims[2],
+      [this](Index k, std::vector<Particle>& found) { this->FindInLayer(k, found); });
+  }
+
+private:
+  void FindInLayer(Index k, std::vector<Particle>& found) const
+  {
+    const Lattice& frame = this->Indicators.Working();
+    const MaterialId* labels = this->Indicators.Labels().data();
+    const Index steps[3] = { 1, frame.Dims[0], Index(frame.Dims[0]) * frame.Dims[1] };
+    for (Index j = 0; j < frame.Dims[1]; ++j)
+    {
+      for (Index i = 0; i < frame.Dims[0]; ++i)
+      {
+        const Index at = frame.At(i, j, k);
+        const Index coordinates[3] = { i, j, k };
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          if (coordinates[axis] + 1 < frame.Dims[axis] && labels[at] != labels[at + steps[axis]])
+          {
+            Vec3 middle = frame.Position(double(i), double(j), double(k));
+            middle[axis] += 0.5 * frame.Spacing[axis];
+            this->FindAtEdge(labels[at], labels[at + steps[axis]], middle, std::uint64_t(3 * at + axis), found);
+          }
+        }
+      }
+    }
+  }
+
+  void FindAtEdge(MaterialId a, MaterialId b, const Vec3& middle, std::uint64_t edge, std::vector<Particle>& found) const
+  {
+    const Lattice& frame = this->Indicators.Working();
+    Particle particle;
+    particle.Materials.Insert(a);
+    particle.Materials.Insert(b);
+    const int count = CandidatesPerEdge(frame.VoxelSize(), this->TargetLength.Trilinear(middle));
+    for (int n = 0; n < count; ++n)
+    {
+      Vec3 start = middle;
+      for (int axis = 0; n > 0 && axis < 3; ++axis)
+      {
+        const double unit = RandomUnit(this->Seed + 1, (edge * 16 + std::uint64_t(n)) * 3 + std::uint64_t(axis));
+        start[axis] += (unit - 0.5) * frame.Spacing[axis];
+      }
+      if (PutOnInterface(this->Indicators, particle.Materials[0], particle.Materials[1], start,
+            frame.Spacing.maxCoeff(), particle))
+      {
+        particle.TargetLength = this->TargetLength.Trilinear(particle.Position);
+        found.push_back(particle);
+      }
+    }
+  }
+
+  const IndicatorSet& Indicators;
+  const Grid<float>& TargetLength;
+  std::uint32_t Seed;
+};
+
+NeighborGrid GridOf(const std::vector<Particle>& particles, std::size_t expected)
+{
+  NeighborGrid grid(expected);
+  for (const Particle& p : particles)
+  {
+    grid.Insert(p.Position, p.TargetLength);
+  }
+  return grid;
+}
+}
+
+std::vector<Particle> InterfaceCandidates(
+  const IndicatorSet& indicators, const Grid<float>& targetLength, std::uint32_t seed)
+{
+  const std::vector<Particle> found = CandidateFinder(indicators, targetLength, seed).Run();
+  std::vector<std::pair<std::uint64_t, Index>> order(found.size());
+  for (std::size_t n = 0; n < found.size(); ++n)
+  {
+    order[n] = { RandomBits(seed, n), Index(n) };
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Particle> candidates;
+  candidates.reserve(found.size());
+  for (const auto& [bits, n] : order)
+  {
+    candidates.push_back(found[n]);
+  }
+  return candidates;
+}
+
+ProtectionBalls::ProtectionBalls(const std::vector<Particle>& particles, const std::vector<Curve>& curves)
+{
+  for (const Curve& curve : curves)
+  {
+    for (std::size_t n = 1; n < curve.Particles.size(); ++n)
+    {
+      const Vec3 &a = particles[curve.Particles[n - 1]].Position, &b = particles[curve.Particles[n]].Position;
+      const double radius = 0.5 * ProtectionFactor * (b - a).norm();
+      if (radius > 0)
+      {
+        this->Balls.Insert(0.5 * (a + b), radius);
+      }
+    }
+  }
+}
+
+bool ProtectionBalls::Contains(const Vec3& x) const
+{
+  bool contains = false;
+  this->Balls.VisitReaching(x, 1.0, [&](Index, double) { contains = true; });
+  return contains;
+}
+
+void AddWhereFree(std::vector<Particle>& particles, const std::vector<Particle>& candidates,
+  const ProtectionBalls& protection, double distance)
+{
+  NeighborGrid grid = GridOf(particles, particles.size() + candidates.size() / 4);
+  for (const Particle& candidate : candidates)
+  {
+    bool free = true;
+    grid.VisitScaled(candidate.Position, candidate.TargetLength, distance,
+      [&](Index n, double squared)
+      {
+        const double core = HardCore * std::min(candidate.TargetLength, particles[n].TargetLength);
+        free = free && squared > core * core && !Interact(candidate, particles[n]);
+      });
+    if (free && !protection.Contains(candidate.Position))
+    {
+      particles.push_back(candidate);
+      grid.Insert(candidate.Position, candidate.TargetLength);
+    }
+  }
+}
+
+void DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& protection)
+{
+  const NeighborGrid grid = GridOf(particles, particles.size());
+  std::vector<char> alive(particles.size(), 1);
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    const Particle& p = particles[i];
+    if (p.CellDimension < 2)
+    {
+      continue;
+    }
+    bool crowded = protection.Contains(p.Position);
+    grid.VisitScaled(p.Position, p.TargetLength, CrowdedDistance,
+      [&](Index j, double squared)
+      {
+        // Of a crowded pair the later one goes; particles of 0- and 1-cells come first.
+        const double core = HardCore * std::min(p.TargetLength, particles[j].TargetLength);
+        crowded = crowded ||
+          (j < Index(i) && alive[j] && (squared < core * core || Interact(p, particles[j])));
+      });
+    alive[i] = !crowded;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    if (alive[i])
+    {
+      particles[kept++] = particles[i];
+    }
+  }
+  particles.resize(kept);
+}
+}
