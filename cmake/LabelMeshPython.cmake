@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The Python package `labelmesh`: the filters, wrapped for VTK Python.
-vtk_module_python_default_destination(labelmesh_site_packages)
+# The same place in both configurations: what VTK proposes differs between ParaView's VTK and Debian's.
+set(labelmesh_site_packages
+  "${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages")
 
 vtk_module_wrap_python(
   MODULES ${labelmesh_modules}

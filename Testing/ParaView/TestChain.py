@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The filters one after the other give what Label Mesher gives, byte by byte; and the baseline and the report run."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from common import blocks, content, fetch, open_volume  # noqa: E402
+
+from paraview.simple import LoadPlugin, OutputPort  # noqa: E402
+
+LoadPlugin(os.environ["LABELMESH_PLUGIN"], remote=False, ns=globals())
+
+volume = open_volume("two_spheres_small")
+
+split = LabelSplit(Input=volume)
+split.MaterialNames = ["1", "upper", "2", "lower"]
+split.MaterialColors = [1, 0.9, 0.2, 0.1, 2, 0.1, 0.2, 0.9]
+tighten = Tighten(Input=split)
+tighten.MaterialRadii = [2, 0.8]
+indicators = IndicatorReconstruct(Input=tighten)
+sizing = SizingField(Input=indicators)
+sizing.MaximumLength = 4.0
+particles = ParticleSampleCells(Input=indicators, Sizing=sizing)
+mesh = DelaunayLabelMesh(Input=particles, Indicators=indicators)
+
+whole = LabelMesher(Input=volume)
+whole.MaterialNames = split.MaterialNames
+whole.MaterialColors = split.MaterialColors
+whole.MaterialRadii = tighten.MaterialRadii
+whole.MaximumLength = sizing.MaximumLength
+
+names = [name for name, _ in blocks(fetch(split))]
+assert {"upper", "lower"} <= set(names), names
+colour = dict(blocks(fetch(split)))["upper"].GetFieldData().GetArray("Color").GetTuple3(0)
+assert colour == (0.9, 0.2, 0.1), colour
+
+interfaces = fetch(mesh)
+assert interfaces.GetNumberOfPolys() > 500, interfaces.GetNumberOfPolys()
+assert interfaces.GetCellData().GetArray("BoundaryLabels") is not None
+for port, (stage, stage_port) in enumerate([(mesh, 0), (mesh, 1), (particles, 0), (particles, 1)]):
+    assert content(fetch(whole, port)) == content(fetch(stage, stage_port)), f"port {port} of Label Mesher differs"
+assert [name for name, _ in blocks(fetch(mesh, 1))] == ["upper", "lower"]
+
+# The chain is live: other sizing, other mesh; the same again, the same mesh.
+before = content(interfaces)
+whole.MaximumLength = 2.0
+assert content(fetch(whole)) != before
+whole.MaximumLength = 4.0
+assert content(fetch(whole)) == before
+
+sizing.UpdatePropertyInformation()
+assert sizing.GetPropertyValue("PredictedParticles") > 100
+
+rebuilt = fetch(indicators, 1)
+assert rebuilt.GetPointData().GetArray("Label") is not None and rebuilt.GetPointData().GetArray("Margin") is not None
+
+grid = GridLabelMesh(Input=volume)
+grid.TargetTriangles = 2000
+assert 0 < fetch(grid).GetNumberOfPolys() <= 2100, fetch(grid).GetNumberOfPolys()
+
+report = LabelMeshReport(Input=mesh, LabelImage=volume, Distances=tighten)
+table = fetch(report)
+assert table.GetNumberOfRows() == 2, table.GetNumberOfRows()
+assert fetch(report, 1).GetNumberOfRows() == 3, fetch(report, 1).GetNumberOfRows()
+assert fetch(LabelMeshReport(Input=OutputPort(grid, 0))).GetNumberOfRows() == 2
+
+print(f"{interfaces.GetNumberOfPolys()} triangles, the same by stages and in one")
