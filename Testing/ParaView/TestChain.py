@@ -4,7 +4,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from common import blocks, content, fetch, open_volume  # noqa: E402
+from common import blocks, content, open_volume, output  # noqa: E402
 
 from paraview.simple import LoadPlugin, OutputPort  # noqa: E402
 
@@ -29,39 +29,39 @@ whole.MaterialColors = split.MaterialColors
 whole.MaterialRadii = tighten.MaterialRadii
 whole.MaximumLength = sizing.MaximumLength
 
-names = [name for name, _ in blocks(fetch(split))]
+names = [name for name, _ in blocks(output(split))]
 assert {"upper", "lower"} <= set(names), names
-colour = dict(blocks(fetch(split)))["upper"].GetFieldData().GetArray("Color").GetTuple3(0)
+colour = dict(blocks(output(split)))["upper"].GetFieldData().GetArray("Color").GetTuple3(0)
 assert colour == (0.9, 0.2, 0.1), colour
 
-interfaces = fetch(mesh)
+interfaces = output(mesh)
 assert interfaces.GetNumberOfPolys() > 500, interfaces.GetNumberOfPolys()
 assert interfaces.GetCellData().GetArray("BoundaryLabels") is not None
 for port, (stage, stage_port) in enumerate([(mesh, 0), (mesh, 1), (particles, 0), (particles, 1)]):
-    assert content(fetch(whole, port)) == content(fetch(stage, stage_port)), f"port {port} of Label Mesher differs"
-assert [name for name, _ in blocks(fetch(mesh, 1))] == ["upper", "lower"]
+    assert content(output(whole, port)) == content(output(stage, stage_port)), f"port {port} of Label Mesher differs"
+assert [name for name, _ in blocks(output(mesh, 1))] == ["upper", "lower"]
 
 # The chain is live: other sizing, other mesh; the same again, the same mesh.
 before = content(interfaces)
 whole.MaximumLength = 2.0
-assert content(fetch(whole)) != before
+assert content(output(whole)) != before
 whole.MaximumLength = 4.0
-assert content(fetch(whole)) == before
+assert content(output(whole)) == before
 
 sizing.UpdatePropertyInformation()
 assert sizing.GetPropertyValue("PredictedParticles") > 100
 
-rebuilt = fetch(indicators, 1)
+rebuilt = output(indicators, 1)
 assert rebuilt.GetPointData().GetArray("Label") is not None and rebuilt.GetPointData().GetArray("Margin") is not None
 
 grid = GridLabelMesh(Input=volume)
 grid.TargetTriangles = 2000
-assert 0 < fetch(grid).GetNumberOfPolys() <= 2100, fetch(grid).GetNumberOfPolys()
+assert 0 < output(grid).GetNumberOfPolys() <= 2100, output(grid).GetNumberOfPolys()
 
 report = LabelMeshReport(Input=mesh, LabelImage=volume, Distances=tighten)
-table = fetch(report)
+table = output(report)
 assert table.GetNumberOfRows() == 2, table.GetNumberOfRows()
-assert fetch(report, 1).GetNumberOfRows() == 3, fetch(report, 1).GetNumberOfRows()
-assert fetch(LabelMeshReport(Input=OutputPort(grid, 0))).GetNumberOfRows() == 2
+assert output(report, 1).GetNumberOfRows() == 3, output(report, 1).GetNumberOfRows()
+assert output(LabelMeshReport(Input=OutputPort(grid, 0))).GetNumberOfRows() == 2
 
 print(f"{interfaces.GetNumberOfPolys()} triangles, the same by stages and in one")

@@ -6,8 +6,9 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from common import fetch, open_volume  # noqa: E402
+from common import open_volume  # noqa: E402
 
+from paraview import servermanager  # noqa: E402
 from paraview.simple import Connect, Disconnect, LoadPlugin  # noqa: E402
 
 with socket.socket() as probe:  # a port that is free now
@@ -20,7 +21,9 @@ try:
     LoadPlugin(plugin, remote=True, ns=globals())
     LoadPlugin(plugin, remote=False, ns=globals())
 
-    mesh = fetch(LabelMesher(Input=open_volume("two_spheres_small"), MaximumLength=4.0))
+    mesher = LabelMesher(Input=open_volume("two_spheres_small"), MaximumLength=4.0)
+    mesher.UpdatePipeline()
+    mesh = servermanager.Fetch(mesher)
     assert mesh.GetNumberOfPolys() > 500, mesh.GetNumberOfPolys()
     print(f"{mesh.GetNumberOfPolys()} triangles from the server")
     Disconnect()

@@ -2,7 +2,6 @@
 """What the ParaView tests share."""
 import os
 
-from paraview import servermanager
 from paraview.simple import OpenDataFile
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -14,9 +13,10 @@ def open_volume(name):
     return reader
 
 
-def fetch(proxy, port=0):
+def output(proxy, port=0):
+    """The data itself, in this process: servermanager.Fetch() does not take collections, and makes copies."""
     proxy.UpdatePipeline()
-    return servermanager.Fetch(proxy, idx=port)
+    return proxy.GetClientSideObject().GetOutputDataObject(port)
 
 
 def blocks(data):
