@@ -21,6 +21,7 @@ constexpr double CosineLargest = -0.8571673;
 constexpr double SampleOffset = 0.6;           // voxels: how far beside the true nearest point a sample may stand
 constexpr double LeastSeparation = 0.9;        // of the distance: nearest points closer together are one feature
 constexpr double LargestProjection = 1.0;      // voxels: farther than this the projection has left its crossing
+constexpr double NearVoxels = 4.0;             // voxels: how far the nearest sample is chosen exactly
 constexpr int MostMedialWalk = 64;             // steps along the interface to the nearest sample
 
 /// Runs body(k, items) for every slice k and joins the lists in the order of the slices.
@@ -244,16 +245,22 @@ private:
   std::array<Index, 3> Stride;
 };
 
-/// The transform chose by the voxels that hold the samples; chooses by the samples themselves among what the neighbours
-/// chose.
+/// The transform chose by the voxels that hold the samples; near the interface, where that error is large beside the
+/// distance, chooses by the samples themselves among what the neighbours chose.
 std::vector<std::int32_t> ChooseBySamples(
   const Lattice& lattice, const std::vector<InterfaceSample>& samples, const std::vector<std::int32_t>& byVoxels)
 {
   std::vector<std::int32_t> chosen(byVoxels.size());
+  const double reach = NearVoxels * lattice.Spacing.maxCoeff();
+  const float near = float(reach * reach);
   const auto choose = [&](Index at, const std::array<int, 3>& c) {
     const Vec3f x = lattice.Position(c[0], c[1], c[2]).cast<float>();
     std::int32_t best = byVoxels[at], tried = best;
     float least = (samples[best].Position - x).squaredNorm();
+    if (least > near)
+    {
+      return best;
+    }
     ForEachAround(lattice, c, [&](Index voxel) {
       const std::int32_t s = byVoxels[voxel];
       if (s == best || s == tried)
@@ -343,10 +350,10 @@ private:
     {
       return;
     }
-    // Where the edge is equally far from both.
+    // Where the edge is equally far from both; a little beyond its ends where the transform switched too early.
     const float atU = (u - this->At(p)).squaredNorm() - (u - this->At(q)).squaredNorm();
     const float atV = (v - this->At(p)).squaredNorm() - (v - this->At(q)).squaredNorm();
-    const float t = atV > atU ? std::clamp(-atU / (atV - atU), 0.0f, 1.0f) : 0.5f;
+    const float t = atV > atU ? std::clamp(-atU / (atV - atU), -1.0f, 2.0f) : 0.5f;
     const Vec3f middle = u + t * (v - u);
     medial.push_back({ middle, std::min((middle - this->At(p)).norm(), (middle - this->At(q)).norm()) });
   }
