@@ -5,6 +5,8 @@
 
 #include "Lattice.h"
 
+#include <Eigen/LU>
+
 namespace LabelMesh
 {
 /// The frame of an oriented image: world = Origin + Direction * (Spacing * index).
