@@ -86,8 +86,8 @@ Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points)
       input.pointlist[3 * n + a] = points[n][a];
     }
   }
-  // Q quiet, n neighbours, N E F: no copies of points, edges, faces.
-  char switches[] = "QnNEF";
+  // Q quiet, n neighbours, N F: no copies of points and faces.
+  char switches[] = "QnNF";
   try
   {
     const std::lock_guard<std::mutex> lock(tetgenIsNotThreadSafe);

@@ -1,49 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshInterfaces.h"
 
+#include "LocalRepair.h"
 #include "TetraLabeling.h"
 
 namespace LabelMesh
 {
 namespace
 {
-struct Attempt
-{
-  std::vector<InterfaceTriangle> Faces;
-  Index Tetrahedra = 0, EmptySets = 0, NonManifoldEdges = 0;
-};
-
-Attempt Triangulate(const IndicatorSet& indicators, const std::vector<Particle>& particles)
-{
-  std::vector<Vec3> points;
-  points.reserve(particles.size());
-  for (const Particle& p : particles)
-  {
-    points.push_back(p.Position);
-  }
-  const Tetrahedralization tetrahedra = DelaunayTetrahedra(points);
-  const MaterialId outside = indicators.Background() != NoMaterial ? indicators.Background() : MaterialId(0);
-  TetraLabels labels = LabelTetrahedra(indicators, particles, tetrahedra);
-  Attempt attempt;
-  attempt.Tetrahedra = tetrahedra.Size();
-  attempt.EmptySets = labels.EmptySets;
-  attempt.NonManifoldEdges = UntieEdges(particles, tetrahedra, outside, labels);
-  attempt.Faces = InterfaceFaces(particles, tetrahedra, labels, outside);
-  return attempt;
-}
-
-bool Wrong(const std::vector<Particle>& particles, const InterfaceTriangle& face)
-{
-  for (const Index v : face.Vertices)
-  {
-    if (!particles[v].Materials.Contains(face.Materials[0]) || !particles[v].Materials.Contains(face.Materials[1]))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Keeps the vertices that triangles use, in their order.
 InterfaceMesh Compact(const std::vector<Particle>& particles, std::vector<InterfaceTriangle> faces)
 {
@@ -74,26 +38,57 @@ InterfaceMesh Compact(const std::vector<Particle>& particles, std::vector<Interf
   mesh.Triangles = std::move(faces);
   return mesh;
 }
+
+/// Counts what is wrong with a mesh.
+void Judge(const std::vector<Particle>& particles, const InterfaceComplex& complex, double wantedRatio, MeshResult& result)
+{
+  result.Tetrahedra = complex.Tetrahedra.Size();
+  result.EmptySets = complex.Labels.EmptySets;
+  result.NonManifoldEdges = Index(NonManifoldEdges(complex.Faces).size());
+  result.WrongFaces = result.BadTriangles = 0;
+  result.WorstRatio = 1.0;
+  for (const InterfaceTriangle& face : complex.Faces)
+  {
+    const double ratio = RadiusRatio(
+      particles[face.Vertices[0]].Position, particles[face.Vertices[1]].Position, particles[face.Vertices[2]].Position);
+    result.WorstRatio = std::min(result.WorstRatio, ratio);
+    result.BadTriangles += ratio < wantedRatio;
+    result.WrongFaces += IsWrong(particles, face);
+  }
+}
 }
 
 MeshResult MeshInterfaces(const IndicatorSet& indicators, const std::vector<Particle>& particles,
   const MeshOptions& options, const Monitor& monitor)
 {
   MeshResult result;
+  std::vector<Particle> current = particles;
   monitor.Step(0.0, "Tetrahedralising");
-  Attempt attempt = Triangulate(indicators, particles);
-  result.Tetrahedra = attempt.Tetrahedra;
-  result.EmptySets = attempt.EmptySets;
-  result.NonManifoldEdges = attempt.NonManifoldEdges;
-  for (const InterfaceTriangle& face : attempt.Faces)
+  InterfaceComplex complex = BuildInterface(indicators, current);
+  for (; result.Rounds < options.RepairRounds; ++result.Rounds)
   {
-    const double ratio = RadiusRatio(
-      particles[face.Vertices[0]].Position, particles[face.Vertices[1]].Position, particles[face.Vertices[2]].Position);
-    result.WorstRatio = std::min(result.WorstRatio, ratio);
-    result.BadTriangles += ratio < options.RepairBelow;
-    result.WrongFaces += Wrong(particles, face);
+    const std::vector<BadSite> sites = FindBadSites(current, complex.Faces, options.RepairBelow);
+    if (sites.empty())
+    {
+      break;
+    }
+    const Monitor round = monitor.Part(double(result.Rounds + 1) / (options.RepairRounds + 1), double(result.Rounds + 2) / (options.RepairRounds + 1));
+    LocalRepair repair(indicators, current, options.RepairBelow);
+    Index mended = 0;
+    for (std::size_t n = 0; n < sites.size(); ++n)
+    {
+      round.Step(double(n) / double(sites.size()), "Repairing");
+      mended += repair.Mend(sites[n]);
+    }
+    repair.Finish();
+    if (mended == 0)
+    {
+      break;
+    }
+    complex = BuildInterface(indicators, current);
   }
-  result.Mesh = Compact(particles, std::move(attempt.Faces));
+  Judge(current, complex, options.RepairBelow, result);
+  result.Mesh = Compact(current, std::move(complex.Faces));
   monitor.Step(1.0);
   return result;
 }

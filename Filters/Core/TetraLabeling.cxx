@@ -51,8 +51,6 @@ std::pair<MaterialId, double> LargestOf(const IndicatorSet& indicators, const Ma
 class EdgeRings
 {
 public:
-  using Edge = std::pair<std::int32_t, std::int32_t>;
-
   explicit EdgeRings(const Tetrahedralization& tetrahedra, std::size_t points)
     : Starts(points + 1, 0)
   {
@@ -84,7 +82,7 @@ public:
     for (Index n = this->Starts[edge.first]; n < this->Starts[edge.first + 1]; ++n)
     {
       const auto& corners = tetrahedra.Corners[this->Tetrahedra[n]];
-      if (std::find(corners.begin(), corners.end(), edge.second) != corners.end())
+      if (std::find(corners.begin(), corners.end(), std::int32_t(edge.second)) != corners.end())
       {
         around.push_back(this->Tetrahedra[n]);
       }
@@ -181,14 +179,14 @@ bool Tied(const std::vector<Arc>& arcs, MaterialId outside)
   return false;
 }
 
-/// The cheapest relabelling of one arc that unties the edge; false where none is allowed.
-bool UntieEdge(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
+/// The cheapest allowed relabelling of one arc that unties the edge; none where there is none.
+void UntieEdge(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
   const std::vector<std::int32_t>& ring, TetraLabels& labels)
 {
   const std::vector<Arc> arcs = ArcsAround(tetrahedra, labels.Labels, ring, outside);
   if (!Tied(arcs, outside))
   {
-    return true;
+    return;
   }
   double cheapest = Certain;
   const Arc* flip = nullptr;
@@ -227,57 +225,13 @@ bool UntieEdge(const std::vector<Particle>& particles, const Tetrahedralization&
       }
     }
   }
-  if (!flip)
+  if (flip)
   {
-    return false;
-  }
-  for (const std::int32_t t : flip->Tetrahedra)
-  {
-    labels.Labels[t] = to;
-  }
-  return true;
-}
-
-/// Edges of interface faces that some material's surface uses other than twice, ascending.
-std::vector<EdgeRings::Edge> TiedEdges(const std::vector<InterfaceTriangle>& faces)
-{
-  struct Use
-  {
-    std::int32_t A, B;
-    MaterialId Material;
-    bool operator<(const Use& o) const { return std::tie(A, B, Material) < std::tie(o.A, o.B, o.Material); }
-    bool operator==(const Use& o) const { return A == o.A && B == o.B && Material == o.Material; }
-  };
-  std::vector<Use> uses;
-  uses.reserve(6 * faces.size());
-  for (const InterfaceTriangle& face : faces)
-  {
-    for (int e = 0; e < 3; ++e)
+    for (const std::int32_t t : flip->Tetrahedra)
     {
-      const auto [a, b] = std::minmax(face.Vertices[e], face.Vertices[(e + 1) % 3]);
-      for (const MaterialId m : face.Materials)
-      {
-        uses.push_back({ std::int32_t(a), std::int32_t(b), m });
-      }
+      labels.Labels[t] = to;
     }
   }
-  std::sort(uses.begin(), uses.end());
-  std::vector<EdgeRings::Edge> tied;
-  for (std::size_t n = 0; n < uses.size();)
-  {
-    std::size_t end = n;
-    while (end < uses.size() && uses[end] == uses[n])
-    {
-      ++end;
-    }
-    const EdgeRings::Edge edge(uses[n].A, uses[n].B);
-    if (end - n != 2 && (tied.empty() || tied.back() != edge))
-    {
-      tied.push_back(edge);
-    }
-    n = end;
-  }
-  return tied;
 }
 }
 
@@ -341,26 +295,77 @@ TetraLabels LabelTetrahedra(
   return result;
 }
 
-Index UntieEdges(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
+std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces)
+{
+  struct Use
+  {
+    Index A, B;
+    MaterialId Material;
+    bool operator<(const Use& o) const { return std::tie(A, B, Material) < std::tie(o.A, o.B, o.Material); }
+    bool operator==(const Use& o) const { return A == o.A && B == o.B && Material == o.Material; }
+  };
+  std::vector<Use> uses;
+  uses.reserve(6 * faces.size());
+  for (const InterfaceTriangle& face : faces)
+  {
+    for (int e = 0; e < 3; ++e)
+    {
+      const auto [a, b] = std::minmax(face.Vertices[e], face.Vertices[(e + 1) % 3]);
+      for (const MaterialId m : face.Materials)
+      {
+        uses.push_back({ a, b, m });
+      }
+    }
+  }
+  std::sort(uses.begin(), uses.end());
+  std::vector<Edge> tied;
+  for (std::size_t n = 0; n < uses.size();)
+  {
+    std::size_t end = n;
+    while (end < uses.size() && uses[end] == uses[n])
+    {
+      ++end;
+    }
+    const Edge edge(uses[n].A, uses[n].B);
+    if (end - n != 2 && (tied.empty() || tied.back() != edge))
+    {
+      tied.push_back(edge);
+    }
+    n = end;
+  }
+  return tied;
+}
+
+bool IsWrong(const std::vector<Particle>& particles, const InterfaceTriangle& face)
+{
+  for (const Index v : face.Vertices)
+  {
+    if (!particles[v].Materials.Contains(face.Materials[0]) || !particles[v].Materials.Contains(face.Materials[1]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void UntieEdges(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
   TetraLabels& labels)
 {
   constexpr int rounds = 8; // untying one edge may tie the next
-  const EdgeRings rings(tetrahedra, particles.size());
-  std::vector<EdgeRings::Edge> tied;
-  for (int round = 0; round < rounds; ++round)
+  std::vector<Edge> tied = NonManifoldEdges(InterfaceFaces(particles, tetrahedra, labels, outside));
+  if (tied.empty())
   {
-    tied = TiedEdges(InterfaceFaces(particles, tetrahedra, labels, outside));
-    bool changed = false;
-    for (const EdgeRings::Edge& edge : tied)
-    {
-      changed = UntieEdge(particles, tetrahedra, outside, rings.Around(tetrahedra, edge), labels) || changed;
-    }
-    if (!changed)
-    {
-      return Index(tied.size());
-    }
+    return;
   }
-  return Index(TiedEdges(InterfaceFaces(particles, tetrahedra, labels, outside)).size());
+  const EdgeRings rings(tetrahedra, particles.size());
+  for (int round = 0; round < rounds && !tied.empty(); ++round)
+  {
+    for (const Edge& edge : tied)
+    {
+      UntieEdge(particles, tetrahedra, outside, rings.Around(tetrahedra, edge), labels);
+    }
+    tied = NonManifoldEdges(InterfaceFaces(particles, tetrahedra, labels, outside));
+  }
 }
 
 std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
@@ -400,5 +405,22 @@ std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& parti
         }
       }
     });
+}
+
+InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vector<Particle>& particles)
+{
+  std::vector<Vec3> points;
+  points.reserve(particles.size());
+  for (const Particle& p : particles)
+  {
+    points.push_back(p.Position);
+  }
+  InterfaceComplex complex;
+  complex.Tetrahedra = DelaunayTetrahedra(points);
+  complex.Labels = LabelTetrahedra(indicators, particles, complex.Tetrahedra);
+  const MaterialId outside = indicators.Background() != NoMaterial ? indicators.Background() : MaterialId(0);
+  UntieEdges(particles, complex.Tetrahedra, outside, complex.Labels);
+  complex.Faces = InterfaceFaces(particles, complex.Tetrahedra, complex.Labels, outside);
+  return complex;
 }
 }

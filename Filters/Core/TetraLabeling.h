@@ -24,13 +24,30 @@ TetraLabels LabelTetrahedra(
   const IndicatorSet& indicators, const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra);
 
 /// Relabels tetrahedra around edges where a material's surface would not be manifold: the arc of equal labels whose
-/// certainty is least goes to an allowed neighbour's label. Returns how many edges stayed non-manifold.
-Index UntieEdges(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
+/// certainty is least goes to an allowed neighbour's label.
+void UntieEdges(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
   TetraLabels& labels);
 
 /// The faces between tetrahedra of different labels; beyond the hull is `outside`. Vertices are the particles' indices.
 std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
   const Tetrahedralization& tetrahedra, const TetraLabels& labels, MaterialId outside);
+
+/// The interface of a set of particles: all of the above.
+struct InterfaceComplex
+{
+  Tetrahedralization Tetrahedra;
+  TetraLabels Labels;
+  std::vector<InterfaceTriangle> Faces;
+};
+InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vector<Particle>& particles);
+
+using Edge = std::pair<Index, Index>; ///< vertices, ascending
+
+/// Edges that the surface of some material uses other than twice, ascending.
+std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces);
+
+/// A face is right if and only if both its materials are in the sets of all its vertices.
+bool IsWrong(const std::vector<Particle>& particles, const InterfaceTriangle& face);
 
 Vec3 Circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 }

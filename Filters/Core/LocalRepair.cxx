@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LocalRepair.h"
+
+#include "Junction.h"
+#include "Relaxation.h"
+#include "TetraLabeling.h"
+
+namespace LabelMesh
+{
+namespace
+{
+// In target lengths of the site.
+constexpr double PatchRadius = 7.0; // particles that are tetrahedralised
+constexpr double CoreRadius = 3.0;  // faces with a vertex within are judged
+constexpr double MoveRadius = 2.5;  // particles within may move
+
+constexpr int RepairSweeps = 12;
+
+// What a fault costs. A triangle below the wanted ratio costs 1 to 11.
+constexpr double WrongFaceCost = 100.0;
+constexpr double NonManifoldCost = 60.0;
+constexpr double LostPairCost = 40.0;
+
+using Pair = std::array<MaterialId, 2>;
+
+Pair PairOf(const InterfaceTriangle& face)
+{
+  return { std::min(face.Materials[0], face.Materials[1]), std::max(face.Materials[0], face.Materials[1]) };
+}
+
+double RatioOf(const std::vector<Particle>& particles, const InterfaceTriangle& face)
+{
+  return RadiusRatio(
+    particles[face.Vertices[0]].Position, particles[face.Vertices[1]].Position, particles[face.Vertices[2]].Position);
+}
+
+/// The materials that two sets share, or all of both.
+MaterialSet Common(const MaterialSet& a, const MaterialSet& b)
+{
+  MaterialSet common;
+  for (const MaterialId m : a)
+  {
+    if (b.Contains(m))
+    {
+      common.Insert(m);
+    }
+  }
+  return common;
+}
+MaterialSet United(const MaterialSet& a, const MaterialSet& b)
+{
+  MaterialSet united = a;
+  for (const MaterialId m : b)
+  {
+    united.Insert(m);
+  }
+  return united;
+}
+
+/// A particle on the junction of exactly these two or three materials near x; false where there is none.
+bool PlaceOnJunction(
+  const IndicatorSet& indicators, const MaterialSet& materials, const Vec3& x, double length, Particle& particle)
+{
+  particle = Particle();
+  particle.TargetLength = length;
+  particle.Materials = materials;
+  if (materials.Size() == 2)
+  {
+    return PutOnInterface(indicators, materials[0], materials[1], x, length, particle);
+  }
+  const Projection p = ProjectToJunction(indicators, materials.begin(), 3, x);
+  const RankedMaterial rival = indicators.LargestBut(p.Position, materials.begin(), 3);
+  particle.Position = p.Position;
+  particle.Residual = p.Residual;
+  particle.CellDimension = 1;
+  return p.Converged && (p.Position - x).norm() < length &&
+    (rival.Material == NoMaterial || rival.Value <= indicators.Value(materials[0], p.Position));
+}
+}
+
+std::vector<BadSite> FindBadSites(
+  const std::vector<Particle>& particles, const std::vector<InterfaceTriangle>& faces, double wantedRatio)
+{
+  std::vector<BadSite> sites;
+  for (const Edge& edge : NonManifoldEdges(faces))
+  {
+    sites.push_back({ { edge.first, edge.second } });
+  }
+  for (const InterfaceTriangle& face : faces)
+  {
+    if (IsWrong(particles, face) || RatioOf(particles, face) < wantedRatio)
+    {
+      sites.push_back({ { face.Vertices.begin(), face.Vertices.end() } });
+    }
+  }
+  return sites;
+}
+
+LocalRepair::LocalRepair(const IndicatorSet& indicators, std::vector<Particle>& particles, double wantedRatio)
+  : Indicators(indicators)
+  , Particles(particles)
+  , WantedRatio(wantedRatio)
+  , Grid(particles.size())
+  , Touched(particles.size(), 0)
+  , Deleted(particles.size(), 0)
+{
+  for (const Particle& p : particles)
+  {
+    this->Grid.Insert(p.Position, p.TargetLength);
+  }
+}
+
+bool LocalRepair::Mend(const BadSite& site)
+{
+  for (const Index v : site.Vertices)
+  {
+    if (this->Touched[v])
+    {
+      return false;
+    }
+  }
+  const Patch patch = this->PatchAround(site);
+  std::vector<Pair> pairs;
+  const double before = this->Badness(patch, nullptr, &pairs);
+  std::vector<Index> local;
+  for (std::size_t n = 0; n < patch.Ids.size(); ++n)
+  {
+    if (std::find(site.Vertices.begin(), site.Vertices.end(), patch.Ids[n]) != site.Vertices.end())
+    {
+      local.push_back(Index(n));
+    }
+  }
+  double best = before;
+  Patch mended;
+  for (Patch& variant : this->Variants(patch, local))
+  {
+    this->RelaxCore(variant);
+    const double badness = this->Badness(variant, &pairs, nullptr);
+    if (badness < best)
+    {
+      best = badness;
+      mended = std::move(variant);
+      if (best == 0.0)
+      {
+        break;
+      }
+    }
+  }
+  if (best < before)
+  {
+    this->Commit(patch, mended);
+  }
+  return best < before;
+}
+
+LocalRepair::Patch LocalRepair::PatchAround(const BadSite& site) const
+{
+  Patch patch;
+  patch.Centre.setZero();
+  for (const Index v : site.Vertices)
+  {
+    patch.Centre += this->Particles[v].Position / double(site.Vertices.size());
+    patch.Length += this->Particles[v].TargetLength / double(site.Vertices.size());
+  }
+  this->Grid.VisitWithin(patch.Centre, PatchRadius * patch.Length, 0.0,
+    [&](Index n, double)
+    {
+      if (!this->Deleted[n])
+      {
+        patch.Ids.push_back(n);
+      }
+    });
+  std::sort(patch.Ids.begin(), patch.Ids.end());
+  for (const Index n : patch.Ids)
+  {
+    patch.Particles.push_back(this->Particles[n]);
+  }
+  return patch;
+}
+
+double LocalRepair::Badness(
+  const Patch& patch, const std::vector<Pair>* wantedPairs, std::vector<Pair>* pairs) const
+{
+  const InterfaceComplex complex = BuildInterface(this->Indicators, patch.Particles);
+  const double reach = CoreRadius * patch.Length;
+  const auto inCore = [&](Index v)
+  { return (patch.Particles[v].Position - patch.Centre).squaredNorm() < reach * reach; };
+  double badness = 0.0;
+  std::vector<Pair> present;
+  for (const InterfaceTriangle& face : complex.Faces)
+  {
+    if (!inCore(face.Vertices[0]) && !inCore(face.Vertices[1]) && !inCore(face.Vertices[2]))
+    {
+      continue;
+    }
+    const double ratio = RatioOf(patch.Particles, face);
+    badness += ratio < this->WantedRatio ? 1.0 + 10.0 * (this->WantedRatio - ratio) / this->WantedRatio : 0.0;
+    badness += IsWrong(patch.Particles, face) ? WrongFaceCost : 0.0;
+    present.push_back(PairOf(face));
+  }
+  for (const Edge& edge : NonManifoldEdges(complex.Faces))
+  {
+    badness += inCore(edge.first) || inCore(edge.second) ? NonManifoldCost : 0.0;
+  }
+  std::sort(present.begin(), present.end());
+  present.erase(std::unique(present.begin(), present.end()), present.end());
+  if (wantedPairs)
+  {
+    for (const Pair& pair : *wantedPairs)
+    {
+      badness += std::binary_search(present.begin(), present.end(), pair) ? 0.0 : LostPairCost;
+    }
+  }
+  if (pairs)
+  {
+    *pairs = present;
+  }
+  return badness;
+}
+
+std::vector<LocalRepair::Patch> LocalRepair::Variants(const Patch& patch, const std::vector<Index>& site) const
+{
+  std::vector<Patch> variants{ patch }; // relaxing alone
+  const auto without = [&](Index v)
+  {
+    Patch variant = patch;
+    variant.Particles.erase(variant.Particles.begin() + v);
+    variant.Ids.erase(variant.Ids.begin() + v);
+    return variant;
+  };
+  const auto with = [&](const Patch& base, const MaterialSet& materials, const Vec3& x, double length)
+  {
+    Particle added;
+    if (PlaceOnJunction(this->Indicators, materials, x, length, added))
+    {
+      variants.push_back(base);
+      variants.back().Particles.push_back(added);
+      variants.back().Ids.push_back(-1);
+    }
+  };
+  // The vertices of the highest cells first: surfaces have particles to spare, curves less.
+  std::vector<Index> order = site;
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b)
+    { return patch.Particles[a].CellDimension > patch.Particles[b].CellDimension; });
+  for (const Index v : order)
+  {
+    if (patch.Particles[v].CellDimension > 0)
+    {
+      variants.push_back(without(v));
+    }
+  }
+  for (std::size_t a = 0; a < site.size(); ++a)
+  {
+    for (std::size_t b = a + 1; b < site.size(); ++b)
+    {
+      const Particle &p = patch.Particles[site[a]], &q = patch.Particles[site[b]];
+      const Vec3 middle = 0.5 * (p.Position + q.Position);
+      const double length = std::min(p.TargetLength, q.TargetLength);
+      const MaterialSet common = Common(p.Materials, q.Materials), united = United(p.Materials, q.Materials);
+      if (common.Size() == 2 || common.Size() == 3)
+      {
+        with(patch, common, middle, length);
+      }
+      if (common.Size() == 2 && p.CellDimension == 2 && q.CellDimension == 2)
+      {
+        with(without(site[a] < site[b] ? site[b] : site[a]), common, middle, length);
+      }
+      if (united.Size() == 3)
+      {
+        // Where a face crosses a curve, the curve wants a particle there; its neighbour on the surface may be in the way.
+        with(patch, united, middle, length);
+        with(without(p.CellDimension == 2 ? site[a] : site[b]), united, middle, length);
+      }
+    }
+  }
+  return variants;
+}
+
+void LocalRepair::RelaxCore(Patch& patch) const
+{
+  const double reach = MoveRadius * patch.Length;
+  std::vector<Index> moving;
+  for (std::size_t n = 0; n < patch.Particles.size(); ++n)
+  {
+    const Particle& p = patch.Particles[n];
+    if (p.CellDimension == 2 && (p.Position - patch.Centre).squaredNorm() < reach * reach)
+    {
+      moving.push_back(Index(n));
+    }
+  }
+  RelaxOptions options;
+  options.Sweeps = RepairSweeps;
+  Relax(this->Indicators, nullptr, patch.Particles, moving, options);
+}
+
+void LocalRepair::Commit(const Patch& before, const Patch& after)
+{
+  for (const Index n : before.Ids)
+  {
+    const double distance = (this->Particles[n].Position - before.Centre).norm();
+    this->Touched[n] = this->Touched[n] || distance < (CoreRadius + MoveRadius) * before.Length;
+  }
+  std::vector<char> kept(before.Ids.size(), 0);
+  for (std::size_t n = 0; n < after.Ids.size(); ++n)
+  {
+    if (after.Ids[n] < 0)
+    {
+      this->Particles.push_back(after.Particles[n]);
+      this->Touched.push_back(1);
+      this->Deleted.push_back(0);
+      this->Grid.Insert(after.Particles[n].Position, after.Particles[n].TargetLength);
+      continue;
+    }
+    this->Particles[after.Ids[n]] = after.Particles[n];
+    kept[std::lower_bound(before.Ids.begin(), before.Ids.end(), after.Ids[n]) - before.Ids.begin()] = 1;
+  }
+  for (std::size_t n = 0; n < kept.size(); ++n)
+  {
+    this->Deleted[before.Ids[n]] = !kept[n];
+  }
+}
+
+void LocalRepair::Finish()
+{
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < this->Particles.size(); ++n)
+  {
+    if (!this->Deleted[n])
+    {
+      this->Particles[kept++] = this->Particles[n];
+    }
+  }
+  this->Particles.resize(kept);
+}
+}
