@@ -24,13 +24,15 @@
  * see vtkDelaunayLabelMesh.
  *
  * Method: marching cubes makes a surface for each label against all the rest. Where in a cell of the grid the surfaces of
- * two labels have the same border they become one piece of interface with both labels. The surfaces are closed before and
- * after smoothing and decimation: they only move vertices and collapse edges.
+ * two labels have the same border they become one piece of interface with both labels. So the surfaces are closed, and
+ * stay so when smoothing moves their vertices.
  *
  * Known flaws, which are the baseline's own:
  *  - where three or more labels meet, and at ambiguous faces, the labels' surfaces do not fit together: narrow tunnels of
  *    background run along the junctions (or labels overlap there by less than a voxel). Their triangles carry the
  *    background as one label though none is near;
+ *  - cracks after decimation: where collapsing an edge lays two triangles on one another, vtkQuadricDecimation drops one,
+ *    though both may be needed where surfaces meet (about one edge in a thousand);
  *  - edges with four triangles of a label and vertices where a surface touches itself, as the voxels have them;
  *  - triangles as bad as a grid makes them (minimal ratios near 0), sizes that do not follow the shape;
  *  - smoothing and decimation ignore the other sheet of a thin part: surfaces may cross.

@@ -6,10 +6,11 @@
 #include "IndicatorCollection.h"
 #include "Core/InterfaceMesh.h"
 
+#include <vtkAlgorithm.h>
 #include <vtkCommand.h>
+#include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkObject.h>
 #include <vtkPointData.h>
 #include <vtkShortArray.h>
 #include <vtkSmartPointer.h>
@@ -117,15 +118,18 @@ inline InterfaceMesh TwoBoxes(MaterialId left, MaterialId right, MaterialId arou
   return mesh;
 }
 
-/// Keeps the errors and warnings of an object instead of printing them.
+/// Keeps the errors and warnings of a filter instead of printing them.
 class Complaints
 {
 public:
-  explicit Complaints(vtkObject* speaker)
+  explicit Complaints(vtkAlgorithm* filter)
   {
-    speaker->AddObserver(vtkCommand::ErrorEvent, this, &Complaints::Note);
-    speaker->AddObserver(vtkCommand::WarningEvent, this, &Complaints::Note);
+    filter->AddObserver(vtkCommand::ErrorEvent, this, &Complaints::Note);
+    filter->AddObserver(vtkCommand::WarningEvent, this, &Complaints::Note);
+    // The executive only says that the filter failed.
+    filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this, &Complaints::Ignore);
   }
+  void Ignore(vtkObject*, unsigned long, void*) {}
   void Note(vtkObject*, unsigned long, void* message)
   {
     this->Text += static_cast<const char*>(message);
