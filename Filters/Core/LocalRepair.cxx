@@ -14,6 +14,8 @@ constexpr double PatchRadius = 7.0; // particles that are tetrahedralised
 constexpr double CoreRadius = 3.0;  // faces with a vertex within are judged
 constexpr double MoveRadius = 2.5;  // particles within may move
 
+constexpr double SameJunction = 0.5; // as in the sampling of curves
+
 constexpr int RepairSweeps = 12;
 
 // What a fault costs. A triangle below the wanted ratio costs 1 to 11.
@@ -84,13 +86,13 @@ std::vector<BadSite> FindBadSites(
   std::vector<BadSite> sites;
   for (const Edge& edge : NonManifoldEdges(faces))
   {
-    sites.push_back({ { edge.first, edge.second } });
+    sites.push_back({ { edge.first, edge.second }, {} });
   }
   for (const InterfaceTriangle& face : faces)
   {
     if (IsWrong(particles, face) || RatioOf(particles, face) < wantedRatio)
     {
-      sites.push_back({ { face.Vertices.begin(), face.Vertices.end() } });
+      sites.push_back({ { face.Vertices.begin(), face.Vertices.end() }, face.Materials });
     }
   }
   return sites;
@@ -132,7 +134,7 @@ bool LocalRepair::Mend(const BadSite& site)
   }
   double best = before;
   Patch mended;
-  for (Patch& variant : this->Variants(patch, local))
+  for (Patch& variant : this->Variants(patch, local, site))
   {
     this->RelaxCore(variant);
     const double badness = this->Badness(variant, &pairs, nullptr);
@@ -218,37 +220,56 @@ double LocalRepair::Badness(
   return badness;
 }
 
-std::vector<LocalRepair::Patch> LocalRepair::Variants(const Patch& patch, const std::vector<Index>& site) const
+std::vector<LocalRepair::Patch> LocalRepair::Variants(
+  const Patch& patch, const std::vector<Index>& site, const BadSite& fault) const
 {
   std::vector<Patch> variants{ patch }; // relaxing alone
-  const auto without = [&](Index v)
+  this->AppendDeletions(patch, site, variants);
+  this->AppendInsertions(patch, site, variants);
+  this->AppendSlides(patch, site, variants);
+  this->AppendJunctions(patch, site, fault, variants);
+  return variants;
+}
+
+LocalRepair::Patch LocalRepair::Without(const Patch& patch, Index v)
+{
+  Patch variant = patch;
+  variant.Particles.erase(variant.Particles.begin() + v);
+  variant.Ids.erase(variant.Ids.begin() + v);
+  return variant;
+}
+
+void LocalRepair::AppendWith(const Patch& base, const MaterialSet& materials, const Vec3& x, double length,
+  std::vector<Patch>& variants) const
+{
+  Particle added;
+  if (PlaceOnJunction(this->Indicators, materials, x, length, added))
   {
-    Patch variant = patch;
-    variant.Particles.erase(variant.Particles.begin() + v);
-    variant.Ids.erase(variant.Ids.begin() + v);
-    return variant;
-  };
-  const auto with = [&](const Patch& base, const MaterialSet& materials, const Vec3& x, double length)
-  {
-    Particle added;
-    if (PlaceOnJunction(this->Indicators, materials, x, length, added))
-    {
-      variants.push_back(base);
-      variants.back().Particles.push_back(added);
-      variants.back().Ids.push_back(-1);
-    }
-  };
+    variants.push_back(base);
+    variants.back().Particles.push_back(added);
+    variants.back().Ids.push_back(-1);
+  }
+}
+
+void LocalRepair::AppendDeletions(
+  const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const
+{
   // The vertices of the highest cells first: surfaces have particles to spare, curves less.
   std::vector<Index> order = site;
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b)
-    { return patch.Particles[a].CellDimension > patch.Particles[b].CellDimension; });
+  std::stable_sort(order.begin(), order.end(),
+    [&](Index a, Index b) { return patch.Particles[a].CellDimension > patch.Particles[b].CellDimension; });
   for (const Index v : order)
   {
     if (patch.Particles[v].CellDimension > 0)
     {
-      variants.push_back(without(v));
+      variants.push_back(Without(patch, v));
     }
   }
+}
+
+void LocalRepair::AppendInsertions(
+  const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const
+{
   for (std::size_t a = 0; a < site.size(); ++a)
   {
     for (std::size_t b = a + 1; b < site.size(); ++b)
@@ -259,21 +280,86 @@ std::vector<LocalRepair::Patch> LocalRepair::Variants(const Patch& patch, const 
       const MaterialSet common = Common(p.Materials, q.Materials), united = United(p.Materials, q.Materials);
       if (common.Size() == 2 || common.Size() == 3)
       {
-        with(patch, common, middle, length);
+        this->AppendWith(patch, common, middle, length, variants);
       }
       if (common.Size() == 2 && p.CellDimension == 2 && q.CellDimension == 2)
       {
-        with(without(site[a] < site[b] ? site[b] : site[a]), common, middle, length);
+        this->AppendWith(Without(patch, std::max(site[a], site[b])), common, middle, length, variants);
       }
       if (united.Size() == 3)
       {
         // Where a face crosses a curve, the curve wants a particle there; its neighbour on the surface may be in the way.
-        with(patch, united, middle, length);
-        with(without(p.CellDimension == 2 ? site[a] : site[b]), united, middle, length);
+        this->AppendWith(patch, united, middle, length, variants);
+        this->AppendWith(Without(patch, p.CellDimension == 2 ? site[a] : site[b]), united, middle, length, variants);
       }
     }
   }
-  return variants;
+}
+
+void LocalRepair::AppendSlides(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const
+{
+  for (const Index v : site)
+  {
+    const Particle& p = patch.Particles[v];
+    if (p.CellDimension != 1 || p.Materials.Size() != 3)
+    {
+      continue;
+    }
+    const Vec3 tangent = CurveTangent(this->Indicators, p.Materials.begin(), p.Position);
+    for (const double slide : { 0.2, -0.2, 0.4, -0.4 })
+    {
+      Particle moved;
+      if (PlaceOnJunction(
+            this->Indicators, p.Materials, p.Position + slide * p.TargetLength * tangent, p.TargetLength, moved))
+      {
+        variants.push_back(patch);
+        variants.back().Particles[v] = moved;
+      }
+    }
+  }
+}
+
+void LocalRepair::AppendJunctions(
+  const Patch& patch, const std::vector<Index>& site, const BadSite& fault, std::vector<Patch>& variants) const
+{
+  Vec3 centroid = Vec3::Zero();
+  for (const Index v : site)
+  {
+    centroid += patch.Particles[v].Position / double(site.size());
+  }
+  for (const Index v : site)
+  {
+    const Particle& p = patch.Particles[v];
+    for (const MaterialId lacking : fault.Materials)
+    {
+      if (lacking == NoMaterial || p.Materials.Contains(lacking))
+      {
+        continue;
+      }
+      // The face reaches beyond a curve of `lacking`, its other material and one of the vertex.
+      for (const MaterialId m : p.Materials)
+      {
+        MaterialSet curve;
+        curve.Insert(m);
+        curve.Insert(fault.Materials[0]);
+        curve.Insert(fault.Materials[1]);
+        if (curve.Size() == 3)
+        {
+          this->AppendWith(patch, curve, centroid, p.TargetLength, variants);
+        }
+      }
+      // Or the vertex is closer to `lacking` than junctions are told apart.
+      Vec3 own, other;
+      const double gap = this->Indicators.ValueAndGradient(p.Materials[0], p.Position, own) -
+        this->Indicators.ValueAndGradient(lacking, p.Position, other);
+      if (gap < SameJunction * p.TargetLength * (own - other).norm())
+      {
+        variants.push_back(patch);
+        variants.back().Particles[v].Materials.Insert(lacking);
+        variants.back().Particles[v].CellDimension = p.CellDimension == 2 ? 1 : 0;
+      }
+    }
+  }
 }
 
 void LocalRepair::RelaxCore(Patch& patch) const

@@ -13,6 +13,7 @@ namespace LabelMesh
 struct BadSite
 {
   std::vector<Index> Vertices; ///< two or three particles
+  std::array<MaterialId, 2> Materials{ NoMaterial, NoMaterial }; ///< of the face, if it is one
 };
 
 /// The bad sites of an interface, in the order of its faces.
@@ -21,8 +22,8 @@ std::vector<BadSite> FindBadSites(
 
 /// Repairs sites one after another, each as a transaction: the particles within a few target lengths are tetrahedralised
 /// by themselves (the empty balls of interface faces are small, so that the faces around the site are those of the whole),
-/// changes are tried (relaxing, deleting a vertex, joining two, adding one on a surface or a curve), and the best one is
-/// kept if the faces around the site have become better. A site that has been touched waits for the next pass.
+/// changes are tried (relaxing, deleting a vertex, joining two, sliding one along its curve, adding one on a surface or a
+/// curve, uniting a junction with one closer than half a target length), and the best one is kept if the faces around the site have become better. A site that has been touched waits for the next pass.
 class LocalRepair
 {
 public:
@@ -45,7 +46,17 @@ private:
   Patch PatchAround(const BadSite& site) const;
   double Badness(const Patch& patch, const std::vector<std::array<MaterialId, 2>>* wantedPairs,
     std::vector<std::array<MaterialId, 2>>* pairs) const;
-  std::vector<Patch> Variants(const Patch& patch, const std::vector<Index>& site) const;
+  /// Changes that may mend the site, whose vertices are `site` of the patch.
+  std::vector<Patch> Variants(const Patch& patch, const std::vector<Index>& site, const BadSite& fault) const;
+  static Patch Without(const Patch& patch, Index v);
+  /// Appends the base with one more particle on the junction of `materials` near x, if there is such a point.
+  void AppendWith(const Patch& base, const MaterialSet& materials, const Vec3& x, double length,
+    std::vector<Patch>& variants) const;
+  void AppendDeletions(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
+  void AppendInsertions(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
+  void AppendSlides(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
+  void AppendJunctions(
+    const Patch& patch, const std::vector<Index>& site, const BadSite& fault, std::vector<Patch>& variants) const;
   void RelaxCore(Patch& patch) const;
   void Commit(const Patch& before, const Patch& after);
 

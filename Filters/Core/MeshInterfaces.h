@@ -12,7 +12,7 @@ namespace LabelMesh
 struct MeshOptions
 {
   int RepairRounds = 8;      ///< at most; it ends sooner when nothing is left to repair
-  double RepairBelow = 0.35; ///< radius ratio under which a triangle is repaired
+  double RepairBelow = 0.5;  ///< radius ratio under which a triangle is repaired
 };
 
 struct MeshResult
