@@ -44,7 +44,7 @@ struct EdgeUse
 {
   Index Low, High;
   Index Triangle; ///< of the surface
-  int Low3, High3; ///< the corners of the triangle where Low and High are
+  int Low3, High3; ///< at which corners of the triangle Low and High are
   bool Forward;
 
   bool operator<(const EdgeUse& other) const
@@ -100,7 +100,7 @@ std::vector<EdgeUse> SortedEdges(const std::vector<Corners>& surface)
   return uses;
 }
 
-/// Edge counts; returns the number of edges and unites, in `fans`, the corners of triangles that share an edge.
+/// Edge counts; returns the number of edges and unites, in `fans`, the corners of the two triangles of an edge.
 Index CheckEdges(const std::vector<EdgeUse>& uses, MaterialCheck& check, DisjointSets& fans)
 {
   Index edges = 0;
@@ -110,10 +110,14 @@ Index CheckEdges(const std::vector<EdgeUse>& uses, MaterialCheck& check, Disjoin
     for (last = first; last < uses.size() && uses[last].Low == uses[first].Low && uses[last].High == uses[first].High; ++last)
     {
       forward += uses[last].Forward ? 1 : 0;
-      fans.Unite(3 * uses[first].Triangle + uses[first].Low3, 3 * uses[last].Triangle + uses[last].Low3);
-      fans.Unite(3 * uses[first].Triangle + uses[first].High3, 3 * uses[last].Triangle + uses[last].High3);
     }
     const Index count = Index(last - first);
+    if (count == 2)
+    {
+      const EdgeUse &a = uses[first], &b = uses[first + 1];
+      fans.Unite(3 * a.Triangle + a.Low3, 3 * b.Triangle + b.Low3);
+      fans.Unite(3 * a.Triangle + a.High3, 3 * b.Triangle + b.High3);
+    }
     ++edges;
     check.OpenEdges += count % 2;
     check.NonManifoldEdges += count % 2 == 0 && count > 2 ? 1 : 0;

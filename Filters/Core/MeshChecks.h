@@ -26,7 +26,7 @@ struct MaterialCheck
   Index OpenEdges = 0;           ///< used by an odd number of the surface's triangles
   Index NonManifoldEdges = 0;    ///< used by an even number of four or more
   Index MisorientedEdges = 0;    ///< used by an even number, but not equally often in both directions
-  Index NonManifoldVertices = 0; ///< whose triangles form more than one fan
+  Index NonManifoldVertices = 0; ///< whose triangles form more than one fan across edges of two
   Index Components = 0;          ///< pieces of triangles that share vertices
   Index Euler = 0;               ///< vertices - edges + triangles
   double Volume = 0.0;           ///< by the divergence theorem; means something where Closed and Oriented

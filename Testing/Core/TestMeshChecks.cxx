@@ -201,6 +201,7 @@ TEST(MeshChecks, SharedEdgeIsNotManifold)
   EXPECT_TRUE(check.Closed());
   EXPECT_FALSE(check.EdgeManifold());
   EXPECT_EQ(check.NonManifoldEdges, 1);
+  EXPECT_EQ(check.NonManifoldVertices, 2);
   EXPECT_EQ(check.OpenEdges, 0);
   EXPECT_TRUE(check.Oriented());
 }
