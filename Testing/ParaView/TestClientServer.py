@@ -12,11 +12,11 @@ from paraview import servermanager  # noqa: E402
 from paraview.simple import Connect, Disconnect, LoadPlugin  # noqa: E402
 
 with socket.socket() as probe:  # a port that is free now
-    probe.bind(("localhost", 0))
+    probe.bind(("127.0.0.1", 0))
     port = probe.getsockname()[1]
 server = subprocess.Popen([sys.argv[1], f"--server-port={port}"])
 try:
-    Connect("localhost", port)  # tries again until the server listens
+    Connect("127.0.0.1", port)  # tries again until the server listens
     plugin = os.environ["LABELMESH_PLUGIN"]
     LoadPlugin(plugin, remote=True, ns=globals())
     LoadPlugin(plugin, remote=False, ns=globals())
