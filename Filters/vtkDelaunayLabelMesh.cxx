@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDelaunayLabelMesh.h"
+
+#include "Core/MeshInterfaces.h"
+#include "FilterSupport.h"
+#include "IndicatorCollection.h"
+#include "MeshAdapter.h"
+
+#include <vtkDataObject.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPolyData.h>
+
+vtkStandardNewMacro(vtkDelaunayLabelMesh);
+
+vtkDelaunayLabelMesh::vtkDelaunayLabelMesh()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkPartitionedDataSetCollection* vtkDelaunayLabelMesh::GetSurfaces()
+{
+  return vtkPartitionedDataSetCollection::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+int vtkDelaunayLabelMesh::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPolyData" : "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+int vtkDelaunayLabelMesh::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+int vtkDelaunayLabelMesh::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  using namespace LabelMesh;
+  vtkPolyData* particles = vtkPolyData::GetData(inputVector[0], 0);
+  vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputVector[1], 0);
+  vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
+  vtkPartitionedDataSetCollection* surfaces = vtkPartitionedDataSetCollection::GetData(outputVector, 1);
+  return RunStage(this,
+    [&](const Monitor& monitor)
+    {
+      const CollectionHeader header = ReadHeader(collection);
+      MeshResult result;
+      if (particles->GetNumberOfPoints() > 0)
+      {
+        monitor.Step(0.0, "Reading the particles");
+        const std::vector<Particle> sites = ParticlesFromPolyData(particles, header);
+        const IndicatorSet indicators = MakeIndicatorSet(collection, header);
+        MeshOptions options;
+        options.RepairRounds = this->RepairRounds;
+        options.RepairBelow = this->RepairBelow;
+        result = MeshInterfaces(indicators, sites, options, monitor.Part(0.05, 0.9));
+      }
+      this->NumberOfTetrahedra = result.Tetrahedra;
+      this->RoundsDone = result.Rounds;
+      this->WrongFaces = result.WrongFaces;
+      this->NonManifoldEdges = result.NonManifoldEdges;
+      if (result.WrongFaces > 0 || result.NonManifoldEdges > 0)
+      {
+        vtkWarningMacro("The mesh has " << result.WrongFaces << " faces between materials that are not at all their "
+          "vertices and " << result.NonManifoldEdges << " non-manifold edges after " << result.Rounds
+          << " rounds of repair. Finer sizing (Epsilon, FeatureSizeFloor) or more RepairRounds may help.");
+      }
+      InterfaceToPolyData(result.Mesh, header, output);
+      SurfacesOfMaterials(output, surfaces);
+      monitor.Step(1.0);
+    });
+}
+
+void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RepairRounds: " << this->RepairRounds << "\n";
+  os << indent << "RepairBelow: " << this->RepairBelow << "\n";
+  os << indent << "NumberOfTetrahedra: " << this->NumberOfTetrahedra << "\n";
+  os << indent << "RoundsDone: " << this->RoundsDone << "\n";
+  os << indent << "WrongFaces: " << this->WrongFaces << "\n";
+  os << indent << "NonManifoldEdges: " << this->NonManifoldEdges << "\n";
+}

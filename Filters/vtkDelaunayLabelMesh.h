@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDelaunayLabelMesh
+ * @brief   Joins particles into a watertight triangle mesh of all material interfaces.
+ *
+ * Delaunay tetrahedra of the particles get a material each; the faces between tetrahedra of different materials are the
+ * mesh (paper, sections 4.3 and 5.3). So it is closed and conforming by construction.
+ *
+ * Input port 0 (vtkPolyData): the particles, from vtkParticleSampleCells.
+ * Input port 1 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array "Indicator".
+ *
+ * Output port 0 (vtkPolyData): triangles, each once.
+ *  - cell data "BoundaryLabels" (int64 x 2): the labels on its two sides; the normal points from the first to the second;
+ *    the background second, else ascending. Space outside the volume is background.
+ *  - cell data "RadiusRatio" (double): 2 r_in / r_circ, 1 for an equilateral triangle
+ *  - point data "CellDimension" (uint8), "NumberOfMaterials" (uint8), "Materials" (int64 x 8, ascending, the rest repeats
+ *    the last): of the particle
+ *  - field data Labels, MaterialNames, MaterialColors, BackgroundLabel
+ *
+ * Output port 1 (vtkPartitionedDataSetCollection, assembly root "Surfaces"): a block per material but the background,
+ * ascending by label, NAME the material's: its closed surface, normals outward, with the points of port 0 to the last bit
+ * and their arrays. "BoundaryLabels" is (own label, other side's) there. Field data Label, Color. A material that was lost
+ * has an empty block.
+ *
+ * Method: a tetrahedron takes the material with the largest indicator at its circumcentre among those that are in the sets
+ * of all four corners, so that no face crosses an interface (the paper asks the circumcentre alone). Then rounds of local
+ * repair at triangles below RepairBelow, at faces whose materials are not in the sets of all their vertices, and at edges
+ * where a surface is not manifold.
+ * The same input gives the same bits for any number of threads.
+ *
+ * Errors: arrays that are missing, labels that the indicators do not have, a failed tetrahedralisation.
+ * Warnings: what repair could not mend, with its figure. Empty inputs give empty outputs with their arrays.
+ */
+#ifndef vtkDelaunayLabelMesh_h
+#define vtkDelaunayLabelMesh_h
+
+#include "vtkLabelMeshFiltersModule.h"
+#include "vtkPolyDataAlgorithm.h"
+
+class vtkPartitionedDataSetCollection;
+
+class VTKLABELMESHFILTERS_EXPORT vtkDelaunayLabelMesh : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkDelaunayLabelMesh* New();
+  vtkTypeMacro(vtkDelaunayLabelMesh, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// Rounds of local repair at most; 0: none. Default 8.
+  vtkSetClampMacro(RepairRounds, int, 0, 1000);
+  vtkGetMacro(RepairRounds, int);
+  ///@}
+
+  ///@{
+  /// The radius ratio below which a triangle is repaired. Default 0.5.
+  vtkSetClampMacro(RepairBelow, double, 0.0, 0.9);
+  vtkGetMacro(RepairBelow, double);
+  ///@}
+
+  ///@{
+  /**
+   * After an update: tetrahedra of the Delaunay triangulation; rounds of repair; and what repair left: faces whose two
+   * materials are not in the sets of all their vertices, edges that a material's surface does not use exactly twice.
+   */
+  vtkGetMacro(NumberOfTetrahedra, vtkIdType);
+  vtkGetMacro(RoundsDone, int);
+  vtkGetMacro(WrongFaces, vtkIdType);
+  vtkGetMacro(NonManifoldEdges, vtkIdType);
+  ///@}
+
+  /// Output port 1.
+  vtkPartitionedDataSetCollection* GetSurfaces();
+
+protected:
+  vtkDelaunayLabelMesh();
+  ~vtkDelaunayLabelMesh() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  int RepairRounds = 8;
+  double RepairBelow = 0.5;
+  vtkIdType NumberOfTetrahedra = 0;
+  int RoundsDone = 0;
+  vtkIdType WrongFaces = 0;
+  vtkIdType NonManifoldEdges = 0;
+
+private:
+  vtkDelaunayLabelMesh(const vtkDelaunayLabelMesh&) = delete;
+  void operator=(const vtkDelaunayLabelMesh&) = delete;
+};
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkParticleSampleCells.h"
+
+#include "Core/ParticleSystem.h"
+#include "FilterSupport.h"
+#include "IndicatorCollection.h"
+#include "LabelMeshNames.h"
+#include "MeshAdapter.h"
+#include "WorkingImage.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkObjectFactory.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+vtkStandardNewMacro(vtkParticleSampleCells);
+
+namespace
+{
+using namespace LabelMesh;
+
+/// The target lengths on the lattice of their image, in the local frame of the source.
+Grid<float> ReadLengths(vtkImageData* image, const GridFrame& source)
+{
+  vtkDataArray* array = image ? image->GetPointData()->GetArray(Names::TargetLength) : nullptr;
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    throw std::invalid_argument(std::string("The image on port 1 has no point array '") + Names::TargetLength +
+      "' with one component. Connect the output of Sizing Field.");
+  }
+  Grid<float> lengths(source.LatticeOf(FrameOf(image)));
+  for (Index at = 0; at < lengths.Frame.Size(); ++at)
+  {
+    const double length = array->GetComponent(at, 0);
+    if (!(length > 0))
+    {
+      throw std::invalid_argument(std::string("The array '") + Names::TargetLength + "' holds " + std::to_string(length) +
+        " at sample " + std::to_string(at) + ", expected positive lengths.");
+    }
+    lengths.Values[at] = float(length);
+  }
+  return lengths;
+}
+}
+
+vtkParticleSampleCells::vtkParticleSampleCells()
+{
+  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(2);
+}
+
+vtkIdType vtkParticleSampleCells::GetNumberOfCellParticles(int dimension) const
+{
+  return dimension >= 0 && dimension < 3 ? this->CellParticles[dimension] : 0;
+}
+
+int vtkParticleSampleCells::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkImageData");
+  return 1;
+}
+
+int vtkParticleSampleCells::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  RequestWholeExtent(inputVector[1]->GetInformationObject(0));
+  return 1;
+}
+
+int vtkParticleSampleCells::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
+  vtkImageData* sizing = vtkImageData::GetData(inputVector[1], 0);
+  vtkPolyData* particles = vtkPolyData::GetData(outputVector, 0);
+  vtkPolyData* curves = vtkPolyData::GetData(outputVector, 1);
+  return RunStage(this,
+    [&](const Monitor& monitor)
+    {
+      const CollectionHeader header = ReadHeader(input);
+      SampleResult result;
+      if (!header.Materials.empty())
+      {
+        monitor.Step(0.0, "Reading the indicators");
+        const IndicatorSet indicators = MakeIndicatorSet(input, header);
+        SampleOptions options;
+        options.Sweeps = this->Sweeps;
+        options.Seed = static_cast<std::uint32_t>(this->Seed);
+        result = SampleCells(indicators, ReadLengths(sizing, header.Source), options, monitor.Part(0.02, 0.98));
+      }
+      std::copy(result.CellCounts.begin(), result.CellCounts.end(), this->CellParticles);
+      this->OpenCurveEnds = result.OpenCurveEnds;
+      this->MeanMove = result.MeanMove;
+      ParticlesToPolyData(result.Particles, header, particles);
+      CurvesToPolyData(result.Curves, result.Particles, header, curves);
+      monitor.Step(1.0);
+    });
+}
+
+void vtkParticleSampleCells::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Sweeps: " << this->Sweeps << "\n";
+  os << indent << "Seed: " << this->Seed << "\n";
+  os << indent << "CellParticles: " << this->CellParticles[0] << " " << this->CellParticles[1] << " "
+     << this->CellParticles[2] << "\n";
+  os << indent << "OpenCurveEnds: " << this->OpenCurveEnds << "\n";
+  os << indent << "MeanMove: " << this->MeanMove << "\n";
+}
