@@ -397,6 +397,12 @@ void PublishFrame(vtkInformation* outInfo, const GridFrame& source, int padding)
   outInfo->Set(FrameGeometryKey(), geometry, 15);
 }
 
+void UnpublishFrame(vtkInformation* outInfo)
+{
+  outInfo->Remove(FrameExtentKey());
+  outInfo->Remove(FrameGeometryKey());
+}
+
 void CopyPublishedFrame(vtkInformation* inInfo, vtkInformation* outInfo)
 {
   GridFrame source;
@@ -407,8 +413,7 @@ void CopyPublishedFrame(vtkInformation* inInfo, vtkInformation* outInfo)
   }
   else
   {
-    outInfo->Remove(FrameExtentKey());
-    outInfo->Remove(FrameGeometryKey());
+    UnpublishFrame(outInfo);
   }
 }
 

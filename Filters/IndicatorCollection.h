@@ -71,6 +71,7 @@ IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const
 
 /// The source grid must be known before there is data: information keys that every stage copies.
 void PublishFrame(vtkInformation* outInfo, const GridFrame& source, int padding);
+void UnpublishFrame(vtkInformation* outInfo);
 void CopyPublishedFrame(vtkInformation* inInfo, vtkInformation* outInfo);
 /// From the keys or, where a reader does not publish them, from the data object if it is there. False when unknown.
 bool PublishedFrame(vtkInformation* inInfo, GridFrame& source, int& padding);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -20,16 +21,31 @@ namespace LabelMesh
 {
 namespace
 {
-template <typename T>
-Label ToLabel(T value)
+std::string IndexOf(Index at, const GridFrame& frame)
 {
+  const auto c = frame.Samples().Coordinates(at);
+  const auto& extent = frame.Extent();
+  return "(" + std::to_string(c[0] + extent[0]) + ", " + std::to_string(c[1] + extent[2]) + ", " +
+    std::to_string(c[2] + extent[4]) + ")";
+}
+
+template <typename T>
+Label ToLabel(T value, Index at, const GridFrame& frame)
+{
+  bool isLabel = true;
   if constexpr (std::is_floating_point_v<T>)
   {
     // 2^63 is the first double that does not fit.
-    if (!(std::abs(value) < T(9.2e18)) || value != std::floor(value))
-    {
-      throw std::invalid_argument("holds " + std::to_string(value) + ", which is not an integer label");
-    }
+    isLabel = std::abs(value) < T(9.2e18) && value == std::floor(value);
+  }
+  else if constexpr (std::is_unsigned_v<T> && sizeof(T) == sizeof(Label))
+  {
+    isLabel = value <= T(std::numeric_limits<Label>::max());
+  }
+  if (!isLabel)
+  {
+    throw std::invalid_argument(
+      "holds " + std::to_string(value) + " at index " + IndexOf(at, frame) + ", which is not an integer label");
   }
   return static_cast<Label>(value);
 }
@@ -45,16 +61,16 @@ struct IdWorker
     const auto values = vtk::DataArrayValueRange<1>(array);
     std::set<Label> found;
     Label last = 0;
-    bool any = false;
+    Index at = 0;
     for (const auto value : values)
     {
-      const Label label = ToLabel(static_cast<vtk::GetAPIType<Array>>(value));
-      if (!any || label != last)
+      const Label label = ToLabel(static_cast<vtk::GetAPIType<Array>>(value), at, this->Image->Frame);
+      if (at == 0 || label != last)
       {
         found.insert(label);
         last = label;
-        any = true;
       }
+      ++at;
     }
     if (found.size() >= NoMaterial)
     {
@@ -65,7 +81,7 @@ struct IdWorker
     labels.assign(found.begin(), found.end());
     this->Image->Ids.resize(static_cast<std::size_t>(values.size()));
     MaterialId id = 0;
-    Index at = 0;
+    at = 0;
     for (const auto value : values)
     {
       const Label label = static_cast<Label>(static_cast<vtk::GetAPIType<Array>>(value));
@@ -78,16 +94,6 @@ struct IdWorker
   }
 };
 
-GridFrame FrameOfCells(const GridFrame& points)
-{
-  std::array<int, 6> extent = points.Extent();
-  for (int a = 0; a < 3; ++a)
-  {
-    --extent[2 * a + 1];
-  }
-  return GridFrame(extent, points.ToWorld(0.5, 0.5, 0.5), points.Spacing(), points.Direction());
-}
-
 void RequireThreeDimensions(const GridFrame& frame)
 {
   const std::array<int, 3> dims = frame.Samples().Dims;
@@ -97,6 +103,16 @@ void RequireThreeDimensions(const GridFrame& frame)
       " x " + std::to_string(dims[2]) + " samples; expected a volume with two or more along each axis.");
   }
 }
+}
+
+GridFrame FrameOfCells(const GridFrame& points)
+{
+  std::array<int, 6> extent = points.Extent();
+  for (int a = 0; a < 3; ++a)
+  {
+    --extent[2 * a + 1];
+  }
+  return GridFrame(extent, points.ToWorld(0.5, 0.5, 0.5), points.Spacing(), points.Direction());
 }
 
 LabelImage ReadLabelImage(vtkImageData* image, vtkDataArray* array, bool cellData)

@@ -20,6 +20,9 @@ struct LabelImage
   std::vector<MaterialId> Ids;    ///< per sample, x fastest: positions in Labels
 };
 
+/// The samples of an image's cells: their centres.
+GridFrame FrameOfCells(const GridFrame& points);
+
 /// Reads the labels of a point array (or a cell array) of an image: any integer type, or floats that hold integers.
 /// Throws std::invalid_argument with a sentence for the user: no array, several components, a fraction, an image that is
 /// not three-dimensional, or more labels than ids.

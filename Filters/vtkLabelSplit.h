@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkLabelSplit
+ * @brief   One mask per material of a label volume: the first stage.
+ *
+ * Input port 0 (vtkImageData): labels, SetInputArrayToProcess(0, ...), by default the active point or cell scalars; any
+ * integer type, or floats that hold integers; negative labels too. Any extent, spacing and direction matrix. Cell data are
+ * samples at the cells' centres.
+ *
+ * Output port 0 (vtkPartitionedDataSetCollection): one vtkImageData per material, ascending by label, the background among
+ * them (see IndicatorCollection.h).
+ *  - block point data "Mask" (float32): 1 inside, 0 outside
+ *  - block field data "Label" (int64), "Color" (float64 x 3); block name: the material's name
+ *  - field data of the collection: Labels (int64), MaterialNames (string), MaterialColors (float64 x 3), BackgroundLabel
+ *    (int64), SourceExtent (int32 x 6), SourceOrigin (float64 x 3), SourceDirection (float64 x 9), VoxelSize (float64 x 3:
+ *    the spacing), Padding (int32)
+ * A block reaches Padding samples beyond its material; the background's covers the whole working grid, which is the source
+ * grid with Padding samples around it. The same grid is published for filters that make images of it.
+ *
+ * Method: one pass over the labels finds the materials and their boxes, one pass over each box makes its mask. Space outside
+ * the volume, and labels that are not asked for, belong to the background.
+ *  - ResamplingFactor: each label's 0/1 function is interpolated linearly at the new samples and the largest wins. The new
+ *    grid covers the same voxels; its extent starts at 0. A finer grid keeps thinner parts in vtkTighten.
+ *  - OpeningRadius, ClosingRadius: binary opening, then closing, of a material by a ball. Other materials' masks do not
+ *    change: what an opening takes away goes to the nearest material in later stages, and where a closing overlaps another
+ *    material the deeper one wins. The background is changed only by a radius of its own.
+ *
+ * Limits: 65534 labels; memory is that of the boxes, four bytes a sample.
+ *
+ * Errors: no array of labels, several components, a value that is not an integer, a two-dimensional image, options out of
+ * range. Warnings: labels that were asked for and do not occur, a material that its opening took away, nothing but
+ * background (the output then has the background's block alone). An empty image gives an empty collection.
+ */
+#ifndef vtkLabelSplit_h
+#define vtkLabelSplit_h
+
+#include "vtkLabelMeshFiltersModule.h"
+#include "vtkPartitionedDataSetCollectionAlgorithm.h"
+
+#include <array>  // for colours
+#include <map>    // for what materials have of their own
+#include <string> // for names
+#include <vector> // for the labels
+
+class VTKLABELMESHFILTERS_EXPORT vtkLabelSplit : public vtkPartitionedDataSetCollectionAlgorithm
+{
+public:
+  static vtkLabelSplit* New();
+  vtkTypeMacro(vtkLabelSplit, vtkPartitionedDataSetCollectionAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// The labels to mesh; all others become background. Default: none given, which means all that occur.
+  void AddLabel(vtkIdType label);
+  void ClearLabels();
+  vtkIdType GetNumberOfLabels() const { return static_cast<vtkIdType>(this->Labels.size()); }
+  vtkIdType GetLabel(vtkIdType index) const { return this->Labels.at(static_cast<std::size_t>(index)); }
+  ///@}
+
+  ///@{
+  /// The label of the background, which space outside the volume has too. Default 0.
+  vtkSetMacro(BackgroundLabel, vtkIdType);
+  vtkGetMacro(BackgroundLabel, vtkIdType);
+  ///@}
+
+  ///@{
+  /// Samples of background around the volume. Less than 6 spoils the mesh at the border. Default 6.
+  vtkSetClampMacro(Padding, int, 0, 1000);
+  vtkGetMacro(Padding, int);
+  ///@}
+
+  ///@{
+  /// Samples per voxel along each axis, above 0. Default 1.
+  vtkSetMacro(ResamplingFactor, double);
+  vtkGetMacro(ResamplingFactor, double);
+  ///@}
+
+  ///@{
+  /// Radius of the opening of every material, voxels of the working grid; 0: none. Default 0.
+  vtkSetMacro(OpeningRadius, double);
+  vtkGetMacro(OpeningRadius, double);
+  ///@}
+
+  ///@{
+  /// Radius of the closing of every material, voxels of the working grid; 0: none. Default 0.
+  vtkSetMacro(ClosingRadius, double);
+  vtkGetMacro(ClosingRadius, double);
+  ///@}
+
+  ///@{
+  /// Radii for the material with this label, in the place of the common ones. Default: none given.
+  void SetMaterialOpeningRadius(vtkIdType label, double radius);
+  void ClearMaterialOpeningRadii();
+  void SetMaterialClosingRadius(vtkIdType label, double radius);
+  void ClearMaterialClosingRadii();
+  /// The radius that a label gets: its own, or the common one (0 for the background).
+  double GetMaterialOpeningRadius(vtkIdType label) const;
+  double GetMaterialClosingRadius(vtkIdType label) const;
+  ///@}
+
+  ///@{
+  /// Name of a material, which travels to every output. Default: Label_<label>.
+  void SetMaterialName(vtkIdType label, const char* name);
+  void ClearMaterialNames();
+  std::string GetMaterialName(vtkIdType label) const;
+  ///@}
+
+  ///@{
+  /// Colour of a material, 0 to 1, which travels to every output. Default: by label, from a categorical palette.
+  void SetMaterialColor(vtkIdType label, double red, double green, double blue);
+  void ClearMaterialColors();
+  void GetMaterialColor(vtkIdType label, double color[3]) const;
+  ///@}
+
+protected:
+  vtkLabelSplit();
+  ~vtkLabelSplit() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+  std::vector<vtkIdType> Labels;
+  vtkIdType BackgroundLabel = 0;
+  int Padding = 6;
+  double ResamplingFactor = 1.0;
+  double OpeningRadius = 0.0;
+  double ClosingRadius = 0.0;
+  std::map<vtkIdType, double> MaterialOpeningRadii;
+  std::map<vtkIdType, double> MaterialClosingRadii;
+  std::map<vtkIdType, std::string> MaterialNames;
+  std::map<vtkIdType, std::array<double, 3>> MaterialColors;
+
+private:
+  vtkLabelSplit(const vtkLabelSplit&) = delete;
+  void operator=(const vtkLabelSplit&) = delete;
+};
+
+#endif

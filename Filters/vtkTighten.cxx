@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTighten.h"
+
+#include "Core/LevelSet.h"
+#include "Core/Parallel.h"
+#include "FilterSupport.h"
+#include "IndicatorCollection.h"
+#include "LabelMeshNames.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPartitionedDataSetCollection.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+vtkStandardNewMacro(vtkTighten);
+
+namespace
+{
+using namespace LabelMesh;
+
+constexpr Index LargeBlock = 1 << 20;  // samples: enough work for threads inside one material
+constexpr double LargeLoss = 0.5;      // share of the volume that a material may lose without a word
+constexpr std::size_t LongestList = 5; // materials that one warning names
+
+TightenOptions OptionsOf(const vtkTighten* filter, LabelMesh::Label label)
+{
+  TightenOptions options;
+  options.Radius = filter->GetMaterialRadius(label);
+  options.AntialiasIterations = const_cast<vtkTighten*>(filter)->GetAntialiasIterations();
+  options.TightenIterations = const_cast<vtkTighten*>(filter)->GetTightenIterations();
+  return options;
+}
+
+std::string UnknownLabels(const std::map<vtkIdType, double>& radii, const CollectionHeader& header)
+{
+  std::string unknown;
+  for (const auto& entry : radii)
+  {
+    const bool known = std::any_of(header.Materials.begin(), header.Materials.end(),
+      [&](const Material& material) { return material.Label == entry.first; });
+    unknown += known || header.Materials.empty() ? "" : " " + std::to_string(entry.first);
+  }
+  return unknown;
+}
+
+/// One material of the collection.
+struct Job
+{
+  Lattice Frame;
+  const float* Mask = nullptr;
+  TightenOptions Options;
+  TightenResult Result;
+  std::exception_ptr Problem;
+};
+
+/// Tightens many small materials at once. Each runs in one thread; exceptions wait until all are done.
+void TightenTogether(std::vector<Job>& jobs, const std::vector<std::size_t>& chosen)
+{
+  ParallelFor(0, Index(chosen.size()), 1, [&](Index first, Index last) {
+    for (Index n = first; n < last; ++n)
+    {
+      Job& job = jobs[chosen[n]];
+      try
+      {
+        job.Result = Tighten(job.Frame, job.Mask, job.Options, Monitor());
+      }
+      catch (...)
+      {
+        job.Problem = std::current_exception();
+      }
+    }
+  });
+  for (const std::size_t n : chosen)
+  {
+    if (jobs[n].Problem)
+    {
+      std::rethrow_exception(jobs[n].Problem);
+    }
+  }
+}
+
+/// Large blocks one after another with threads inside, small ones side by side: hundreds of forks and joins for a small
+/// block cost more than its work.
+void TightenAll(std::vector<Job>& jobs, const std::vector<Material>& materials, const Monitor& monitor)
+{
+  double total = 1, done = 0; // samples
+  for (const Job& job : jobs)
+  {
+    total += double(job.Frame.Size());
+  }
+  std::vector<std::size_t> batch;
+  Index inBatch = 0;
+  const auto finishBatch = [&]() {
+    if (!batch.empty())
+    {
+      monitor.Step(done / total, "Tightening " + materials[batch.front()].Name +
+          (batch.size() > 1 ? " and " + std::to_string(batch.size() - 1) + " more" : ""));
+      TightenTogether(jobs, batch);
+    }
+    done += double(inBatch);
+    inBatch = 0;
+    batch.clear();
+  };
+  for (std::size_t n = 0; n < jobs.size(); ++n)
+  {
+    Job& job = jobs[n];
+    const Index size = job.Frame.Size();
+    if (size >= LargeBlock)
+    {
+      const Monitor part = monitor.Part(done / total, (done + double(size)) / total);
+      const std::string& name = materials[n].Name;
+      part.Step(0.0, "Tightening " + name);
+      job.Result = Tighten(job.Frame, job.Mask, job.Options,
+        Monitor([&part, &name](double fraction, const std::string& text) {
+          part.Step(fraction, text + " of " + name); // throws to stop
+          return false;
+        }));
+      done += double(size);
+    }
+    else
+    {
+      batch.push_back(n);
+      inBatch += size;
+      if (inBatch >= 16 * LargeBlock) // to hear of an abort in time
+      {
+        finishBatch();
+      }
+    }
+  }
+  finishBatch();
+}
+
+void AddVolumes(vtkFieldData* fieldData, const char* name, const std::vector<double>& volumes)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  for (const double volume : volumes)
+  {
+    array->InsertNextValue(volume);
+  }
+  fieldData->AddArray(array);
+}
+
+/// What the user should know of materials that are gone or mostly gone; empty when there are none.
+std::string LossesOf(const std::vector<Job>& jobs, const CollectionHeader& header)
+{
+  std::string text;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < jobs.size(); ++n)
+  {
+    const TightenResult& result = jobs[n].Result;
+    const double kept = result.MaskVolume > 0 ? result.TightVolume / result.MaskVolume : 1.0;
+    if (kept < 1 - LargeLoss && header.Materials[n].Label != header.Background && ++count <= LongestList)
+    {
+      char figures[128];
+      std::snprintf(figures, sizeof(figures), kept > 0 ? "loses %.0f %% of its volume (radius %g)" : "vanishes (%.0f %%, radius %g)",
+        100 * (1 - kept), jobs[n].Options.Radius);
+      text += (count > 1 ? "; " : "") + header.Materials[n].Name + " " + figures;
+    }
+  }
+  if (count > LongestList)
+  {
+    text += "; and so do " + std::to_string(count - LongestList) + " more";
+  }
+  return text;
+}
+}
+
+void vtkTighten::SetMaterialRadius(vtkIdType label, double radius)
+{
+  const auto found = this->MaterialRadii.find(label);
+  if (found == this->MaterialRadii.end() || found->second != radius)
+  {
+    this->MaterialRadii[label] = radius;
+    this->Modified();
+  }
+}
+
+void vtkTighten::ClearMaterialRadii()
+{
+  if (!this->MaterialRadii.empty())
+  {
+    this->MaterialRadii.clear();
+    this->Modified();
+  }
+}
+
+double vtkTighten::GetMaterialRadius(vtkIdType label) const
+{
+  const auto found = this->MaterialRadii.find(label);
+  return found == this->MaterialRadii.end() ? this->Radius : found->second;
+}
+
+int vtkTighten::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPartitionedDataSetCollection");
+  return 1;
+}
+
+int vtkTighten::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  CopyPublishedFrame(inputVector[0]->GetInformationObject(0), outputVector->GetInformationObject(0));
+  return 1;
+}
+
+int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
+  vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
+  return RunStage(this, [&](const Monitor& monitor) {
+    const CollectionHeader header = ReadHeader(input);
+    std::vector<Job> jobs(header.Materials.size());
+    for (unsigned int n = 0; n < jobs.size(); ++n)
+    {
+      jobs[n].Frame = header.Source.LatticeOf(FrameOf(BlockImage(input, n)));
+      jobs[n].Mask = BlockValues(input, n, Names::Mask);
+      jobs[n].Options = OptionsOf(this, header.Materials[n].Label);
+    }
+    const std::string unknown = UnknownLabels(this->MaterialRadii, header);
+    if (!unknown.empty())
+    {
+      vtkWarningMacro("SetMaterialRadius names labels that are not among the materials:" << unknown << ".");
+    }
+    TightenAll(jobs, header.Materials, monitor);
+    const std::string losses = LossesOf(jobs, header);
+    if (!losses.empty())
+    {
+      vtkWarningMacro("" << losses << ". Give what is thin a smaller radius with SetMaterialRadius, or a finer grid with the "
+        << "resampling factor of Label Split.");
+    }
+    if (input->GetFieldData())
+    {
+      output->GetFieldData()->ShallowCopy(input->GetFieldData());
+    }
+    std::vector<double> maskVolumes, tightVolumes;
+    for (unsigned int n = 0; n < jobs.size(); ++n)
+    {
+      maskVolumes.push_back(jobs[n].Result.MaskVolume);
+      tightVolumes.push_back(jobs[n].Result.TightVolume);
+      AppendBlock(output, header.Materials[n], FrameOf(BlockImage(input, n)), Names::TightDistance,
+        std::move(jobs[n].Result.Distance));
+    }
+    WriteHeader(output, header);
+    AddVolumes(output->GetFieldData(), Names::MaskVolumes, maskVolumes);
+    AddVolumes(output->GetFieldData(), Names::TightVolumes, tightVolumes);
+  });
+}
+
+void vtkTighten::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "MaterialRadii:";
+  for (const auto& [label, radius] : this->MaterialRadii)
+  {
+    os << " " << label << ": " << radius;
+  }
+  os << "\n" << indent << "AntialiasIterations: " << this->AntialiasIterations << "\n";
+  os << indent << "TightenIterations: " << this->TightenIterations << "\n";
+}
