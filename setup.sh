@@ -105,23 +105,22 @@ run_tests()
 
 demo()
 {
-  local name=two_spheres method
+  local mesh=demo/two_spheres triangles
   mkdir -p demo
-  say "Meshing $name"
-  /usr/bin/python3 Data/make_volumes.py demo "$name"
-  for method in particle grid
-  do
-    build/bin/labelmesh "demo/$name.mha" --method "$method" -o "demo/$name.$method.vtp" \
-      --surfaces "demo/$name.$method.vtpc" --report "demo/$name.$method.json" \
-      $([ "$method" = particle ] && echo --particles "demo/$name.particles.vtp")
-  done
+  say "Meshing two spheres: by particles, and on the grid with as many triangles"
+  /usr/bin/python3 Data/make_volumes.py demo two_spheres
+  build/bin/labelmesh $mesh.mha --method particle -o $mesh.particle.vtp --surfaces $mesh.particle.vtpc \
+    --particles $mesh.particles.vtp --report $mesh.particle.json
+  triangles=$(/usr/bin/python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["triangles"])' $mesh.particle.json)
+  build/bin/labelmesh $mesh.mha --method grid --triangles "$triangles" -o $mesh.grid.vtp \
+    --surfaces $mesh.grid.vtpc --report $mesh.grid.json
   say "Rendering"
   OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 Testing/with_display.sh \
-    pvbatch Examples/render_comparison.py "demo/$name.particle.vtp" "demo/$name.grid.vtp" "demo/$name.png"
+    pvbatch Examples/render_comparison.py $mesh.particle.vtp $mesh.grid.vtp $mesh.png
   say "Results, in demo/"
   ls demo
   echo
-  /usr/bin/python3 Examples/compare_reports.py "demo/$name.particle.json" "demo/$name.grid.json"
+  /usr/bin/python3 Examples/compare_reports.py $mesh.particle.json $mesh.grid.json
 }
 
 case "${1:-}" in
