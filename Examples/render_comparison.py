@@ -42,6 +42,7 @@ labels.Annotations = [text for label in range(int(lowest), int(highest) + 1) for
 labels.IndexedColors = PALETTE
 
 layout = CreateLayout("Comparison")
+views = []
 for number, (path, mesh) in enumerate(zip([left, right], meshes)):
     view = CreateView("RenderView")
     layout.AssignView(0 if number == 0 else layout.SplitHorizontal(0, 0.5) + 1, view)
@@ -58,13 +59,15 @@ for number, (path, mesh) in enumerate(zip([left, right], meshes)):
     caption = Show(Text(Text=f"{os.path.basename(path)}: {mesh.GetDataInformation().GetNumberOfCells():,} triangles"), view)
     caption.Color = [0, 0, 0]
     caption.FontSize = 20
-    # Only now: showing something in an empty view moves the camera.
+    views.append(view)
+
+layout.SetSize(*SIZE)
+
+for view in views:
+    Render(view)  # the first picture of a view resets its camera
     view.CameraParallelProjection = 1
     view.CameraParallelScale = 0.54 * size
     view.CameraViewUp = [0, 0, 1]
     view.CameraFocalPoint = centre
     view.CameraPosition = [centre[axis] + 3 * size * VIEW_FROM[axis] for axis in range(3)]
-    Render(view)
-
-layout.SetSize(*SIZE)
 SaveScreenshot(picture, layout, ImageResolution=SIZE)
