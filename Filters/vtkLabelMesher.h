@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkLabelMesher
+ * @brief   From a label volume to a watertight mesh of all its materials, in one step.
+ *
+ * The whole chain in one filter: vtkLabelSplit, vtkTighten, vtkIndicatorReconstruct, vtkSizingField,
+ * vtkParticleSampleCells, vtkDelaunayLabelMesh. Every stage keeps its output, so that a change runs only the stages that it
+ * concerns: a new Epsilon does not tighten again.
+ *
+ * Input port 0 (vtkImageData): labels, SetInputArrayToProcess(0, ...), by default the active point or cell scalars; see
+ * vtkLabelSplit.
+ * Input port 1 (vtkImageData, optional): a further upper bound of the edge length, its active point scalars; see
+ * vtkSizingField.
+ *
+ * Output port 0 (vtkPolyData): the interface triangles, each once; see vtkDelaunayLabelMesh for its arrays.
+ * Output port 1 (vtkPartitionedDataSetCollection): a closed surface per material; see vtkDelaunayLabelMesh. Field data
+ * MaskVolumes, TightVolumes (float64, in the order of Labels) as vtkTighten's, for vtkLabelMeshReport.
+ * Output port 2 (vtkPolyData): the particles, before repair; see vtkParticleSampleCells.
+ * Output port 3 (vtkPolyData): the curves where three materials meet; see vtkParticleSampleCells.
+ *
+ * Properties are those of the stages, under the same names; see there for what they mean. Warnings of the stages are
+ * warnings of this filter, an error of a stage is its error; progress names the stage that runs; an abort stops it.
+ */
+#ifndef vtkLabelMesher_h
+#define vtkLabelMesher_h
+
+#include "vtkLabelMeshFiltersModule.h"
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory> // for the stages
+#include <string> // for names
+
+class vtkPartitionedDataSetCollection;
+
+class VTKLABELMESHFILTERS_EXPORT vtkLabelMesher : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkLabelMesher* New();
+  vtkTypeMacro(vtkLabelMesher, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkMTimeType GetMTime() override;
+
+  ///@{
+  /// vtkLabelSplit: which labels (default all), the background's (default 0).
+  void AddLabel(vtkIdType label);
+  void ClearLabels();
+  vtkIdType GetNumberOfLabels() const;
+  vtkIdType GetLabel(vtkIdType index) const;
+  void SetBackgroundLabel(vtkIdType label);
+  vtkIdType GetBackgroundLabel() const;
+  ///@}
+
+  ///@{
+  /// vtkLabelSplit: names and colours (0 to 1) of materials.
+  void SetMaterialName(vtkIdType label, const char* name);
+  void ClearMaterialNames();
+  std::string GetMaterialName(vtkIdType label) const;
+  void SetMaterialColor(vtkIdType label, double red, double green, double blue);
+  void ClearMaterialColors();
+  void GetMaterialColor(vtkIdType label, double color[3]) const;
+  ///@}
+
+  ///@{
+  /// vtkLabelSplit: samples of background around the volume (6); samples per voxel along each axis (1).
+  void SetPadding(int samples);
+  int GetPadding() const;
+  void SetResamplingFactor(double factor);
+  double GetResamplingFactor() const;
+  ///@}
+
+  ///@{
+  /// vtkLabelSplit: radii of binary opening and closing, voxels (0), for all and for single materials.
+  void SetOpeningRadius(double radius);
+  double GetOpeningRadius() const;
+  void SetClosingRadius(double radius);
+  double GetClosingRadius() const;
+  void SetMaterialOpeningRadius(vtkIdType label, double radius);
+  double GetMaterialOpeningRadius(vtkIdType label) const;
+  void ClearMaterialOpeningRadii();
+  void SetMaterialClosingRadius(vtkIdType label, double radius);
+  double GetMaterialClosingRadius(vtkIdType label) const;
+  void ClearMaterialClosingRadii();
+  ///@}
+
+  ///@{
+  /// vtkTighten: least radius of curvature, voxels (1), for all and for single materials; steps of its flows (10, 20).
+  void SetRadius(double radius);
+  double GetRadius() const;
+  void SetMaterialRadius(vtkIdType label, double radius);
+  double GetMaterialRadius(vtkIdType label) const;
+  void ClearMaterialRadii();
+  void SetAntialiasIterations(int iterations);
+  int GetAntialiasIterations() const;
+  void SetTightenIterations(int iterations);
+  int GetTightenIterations() const;
+  ///@}
+
+  ///@{
+  /// vtkIndicatorReconstruct: the largest constant added to a material's distance, voxels (0.03).
+  void SetPerturbation(double voxels);
+  double GetPerturbation() const;
+  ///@}
+
+  ///@{
+  /// vtkSizingField: edge length over feature size (0.5); the least feature size, voxels (1); growth of length (0.4).
+  void SetEpsilon(double epsilon);
+  double GetEpsilon() const;
+  void SetFeatureSizeFloor(double voxels);
+  double GetFeatureSizeFloor() const;
+  void SetGradation(double gradation);
+  double GetGradation() const;
+  ///@}
+
+  ///@{
+  /// vtkSizingField: bounds of the edge length, world units (0: none), for all and for single materials.
+  void SetMinimumLength(double length);
+  double GetMinimumLength() const;
+  void SetMaximumLength(double length);
+  double GetMaximumLength() const;
+  void SetMaterialMaximumLength(vtkIdType label, double length);
+  double GetMaterialMaximumLength(vtkIdType label) const;
+  void ClearMaterialMaximumLengths();
+  ///@}
+
+  ///@{
+  /// vtkSizingField: about how many triangles to make (0: as the other properties say).
+  void SetTargetTriangles(vtkIdType triangles);
+  vtkIdType GetTargetTriangles() const;
+  ///@}
+
+  ///@{
+  /// vtkParticleSampleCells: relaxation sweeps (30), seed (1).
+  void SetSweeps(int sweeps);
+  int GetSweeps() const;
+  void SetSeed(int seed);
+  int GetSeed() const;
+  ///@}
+
+  ///@{
+  /// vtkDelaunayLabelMesh: rounds of repair at most (8); the radius ratio below which a triangle is repaired (0.5).
+  void SetRepairRounds(int rounds);
+  int GetRepairRounds() const;
+  void SetRepairBelow(double ratio);
+  double GetRepairBelow() const;
+  ///@}
+
+  ///@{
+  /**
+   * The stages, in order: "LabelSplit", "Tighten", "IndicatorReconstruct", "SizingField", "ParticleSampleCells",
+   * "DelaunayLabelMesh". Of each: the seconds that its last run took, and how often it has run. 0 before it ran and for
+   * names that are no stage's.
+   */
+  int GetNumberOfStages() const;
+  const char* GetStageName(int stage) const;
+  double GetStageSeconds(const char* name) const;
+  int GetStageRuns(const char* name) const;
+  ///@}
+
+  ///@{
+  /// Output ports 1 to 3.
+  vtkPartitionedDataSetCollection* GetSurfaces();
+  vtkPolyData* GetParticles();
+  vtkPolyData* GetCurves();
+  ///@}
+
+protected:
+  vtkLabelMesher();
+  ~vtkLabelMesher() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+private:
+  vtkLabelMesher(const vtkLabelMesher&) = delete;
+  void operator=(const vtkLabelMesher&) = delete;
+
+  class Pipeline;
+  std::unique_ptr<Pipeline> Stages;
+};
+
+#endif

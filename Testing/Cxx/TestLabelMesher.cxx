@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLabelMesher.h"
+
+#include "Core/MeshChecks.h"
+#include "LabelMeshNames.h"
+#include "MeshAdapter.h"
+#include "TestMeshes.h"
+#include "vtkDelaunayLabelMesh.h"
+#include "vtkIndicatorReconstruct.h"
+#include "vtkLabelSplit.h"
+#include "vtkParticleSampleCells.h"
+#include "vtkSizingField.h"
+#include "vtkTighten.h"
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkInformation.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPolyData.h>
+#include <vtkSMPTools.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace TestMeshes;
+
+namespace
+{
+MeshCheck CheckOf(vtkPolyData* mesh)
+{
+  const InterfaceData data = ReadInterface(mesh);
+  return CheckMesh(data.Points, data.Triangles, int(data.Materials.size()), data.Sets);
+}
+
+/// The positions and connectivity of a mesh as bytes.
+std::string BytesOf(vtkPolyData* mesh)
+{
+  std::string bytes;
+  const auto append = [&](vtkDataArray* array)
+  {
+    const char* data = static_cast<const char*>(array->GetVoidPointer(0));
+    bytes.append(data, static_cast<std::size_t>(array->GetNumberOfValues()) * array->GetDataTypeSize());
+  };
+  append(mesh->GetPoints()->GetData());
+  append(mesh->GetPolys()->GetConnectivityArray());
+  append(mesh->GetCellData()->GetArray(Names::BoundaryLabels));
+  return bytes;
+}
+
+/// Stops a filter at its first progress beyond a fraction.
+class Stopper
+{
+public:
+  Stopper(vtkAlgorithm* filter, double fraction)
+    : Fraction(fraction)
+    , Tag(filter->AddObserver(vtkCommand::ProgressEvent, this, &Stopper::Watch))
+  {
+  }
+  void Watch(vtkObject* caller, unsigned long, void*)
+  {
+    vtkAlgorithm* filter = vtkAlgorithm::SafeDownCast(caller);
+    if (filter->GetProgress() >= this->Fraction)
+    {
+      filter->SetAbortExecute(1);
+    }
+  }
+  double Fraction;
+  unsigned long Tag;
+};
+}
+
+TEST(LabelMesher, TwoSpheres)
+{
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(TwoSpheres(64));
+  mesher->SetMaterialName(1, "upper");
+  mesher->Update();
+  const MeshCheck check = CheckOf(mesher->GetOutput());
+  ASSERT_EQ(check.Materials.size(), 3u);
+  for (const MaterialCheck& material : check.Materials)
+  {
+    EXPECT_TRUE(material.EdgeManifold());
+    EXPECT_TRUE(material.Oriented());
+    EXPECT_EQ(material.NonManifoldVertices, 0);
+    EXPECT_EQ(material.Euler, 2);
+  }
+  EXPECT_EQ(check.WrongFaces + check.DuplicateTriangles + check.SameMaterialTriangles, 0);
+  EXPECT_GE(check.Quality.MinRadiusRatio, 0.5);
+  EXPECT_GE(check.Quality.MeanRadiusRatio, 0.93);
+  const double sphere = 4.0 / 3.0 * M_PI * std::pow(17.0, 3);
+  EXPECT_NEAR(check.Materials[1].Volume, sphere, 0.06 * sphere) << "less by what lies beyond the chords";
+
+  vtkPartitionedDataSetCollection* surfaces = mesher->GetSurfaces();
+  ASSERT_EQ(surfaces->GetNumberOfPartitionedDataSets(), 2u);
+  EXPECT_STREQ(surfaces->GetMetaData(0u)->Get(vtkCompositeDataSet::NAME()), "upper");
+  EXPECT_EQ(surfaces->GetFieldData()->GetArray(Names::TightVolumes)->GetNumberOfValues(), 3);
+  EXPECT_GT(mesher->GetParticles()->GetNumberOfPoints(), 200);
+  ASSERT_EQ(mesher->GetCurves()->GetNumberOfLines(), 1) << "the circle where both balls and the background meet";
+}
+
+TEST(LabelMesher, EqualsTheChainOfItsStages)
+{
+  const auto volume = TwoSpheres(40);
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(volume);
+  mesher->SetEpsilon(0.6);
+  mesher->SetMaterialRadius(2, 0.7);
+  mesher->Update();
+
+  vtkNew<vtkLabelSplit> split;
+  split->SetInputDataObject(volume);
+  vtkNew<vtkTighten> tighten;
+  tighten->SetInputConnection(split->GetOutputPort());
+  tighten->SetMaterialRadius(2, 0.7);
+  vtkNew<vtkIndicatorReconstruct> reconstruct;
+  reconstruct->SetInputConnection(tighten->GetOutputPort());
+  vtkNew<vtkSizingField> sizing;
+  sizing->SetInputConnection(reconstruct->GetOutputPort());
+  sizing->SetEpsilon(0.6);
+  vtkNew<vtkParticleSampleCells> sample;
+  sample->SetInputConnection(0, reconstruct->GetOutputPort());
+  sample->SetInputConnection(1, sizing->GetOutputPort());
+  vtkNew<vtkDelaunayLabelMesh> mesh;
+  mesh->SetInputConnection(0, sample->GetOutputPort());
+  mesh->SetInputConnection(1, reconstruct->GetOutputPort());
+  mesh->Update();
+  EXPECT_GT(mesh->GetOutput()->GetNumberOfCells(), 100);
+  EXPECT_TRUE(BytesOf(mesh->GetOutput()) == BytesOf(mesher->GetOutput()));
+}
+
+TEST(LabelMesher, RunsOnlyTheStagesThatChanged)
+{
+  vtkNew<vtkLabelMesher> mesher;
+  const auto volume = TwoSpheres(32);
+  mesher->SetInputData(volume);
+  mesher->Update();
+  const auto runs = [&]()
+  {
+    std::vector<int> counts;
+    for (int s = 0; s < mesher->GetNumberOfStages(); ++s)
+    {
+      counts.push_back(mesher->GetStageRuns(mesher->GetStageName(s)));
+    }
+    return counts;
+  };
+  EXPECT_EQ(runs(), (std::vector<int>{ 1, 1, 1, 1, 1, 1 }));
+  mesher->Update();
+  EXPECT_EQ(runs(), (std::vector<int>{ 1, 1, 1, 1, 1, 1 }));
+  const std::string first = BytesOf(mesher->GetOutput());
+  mesher->SetEpsilon(0.8);
+  mesher->Update();
+  EXPECT_EQ(runs(), (std::vector<int>{ 1, 1, 1, 2, 2, 2 })) << "a new sizing does not tighten again";
+  EXPECT_FALSE(first == BytesOf(mesher->GetOutput()));
+  mesher->SetRepairRounds(2);
+  mesher->Update();
+  EXPECT_EQ(runs(), (std::vector<int>{ 1, 1, 1, 2, 2, 3 }));
+  mesher->SetRadius(0.9);
+  mesher->Update();
+  EXPECT_EQ(runs(), (std::vector<int>{ 1, 2, 2, 3, 3, 4 }));
+  volume->GetPointData()->GetScalars()->Modified();
+  volume->Modified();
+  mesher->SetRadius(1.0);
+  mesher->SetRepairRounds(8);
+  mesher->SetEpsilon(0.5);
+  mesher->Update();
+  EXPECT_EQ(runs()[0], 2) << "new data runs everything";
+  EXPECT_TRUE(first == BytesOf(mesher->GetOutput())) << "and what is kept has left no trace";
+  EXPECT_GT(mesher->GetStageSeconds("Tighten"), 0.0);
+  EXPECT_EQ(mesher->GetStageSeconds("no such stage"), 0.0);
+}
+
+TEST(LabelMesher, SameBytesForAnyNumberOfThreads)
+{
+  std::string bytes[2];
+  for (int n = 0; n < 2; ++n)
+  {
+    vtkSMPTools::Initialize(n + 1);
+    vtkNew<vtkLabelMesher> mesher;
+    mesher->SetInputData(TwoSpheres(40));
+    mesher->Update();
+    bytes[n] = BytesOf(mesher->GetOutput());
+  }
+  vtkSMPTools::Initialize();
+  EXPECT_TRUE(bytes[0] == bytes[1]);
+}
+
+TEST(LabelMesher, UserSizing)
+{
+  const auto volume = TwoSpheres(48);
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(volume);
+  mesher->Update();
+  const vtkIdType free = mesher->GetOutput()->GetNumberOfCells();
+  vtkNew<vtkImageData> bound;
+  bound->CopyStructure(volume);
+  vtkNew<vtkFloatArray> lengths;
+  lengths->SetName("Bound");
+  lengths->SetNumberOfValues(bound->GetNumberOfPoints());
+  lengths->FillValue(1.0f);
+  bound->GetPointData()->SetScalars(lengths);
+  mesher->SetInputData(1, bound);
+  mesher->Update();
+  EXPECT_GT(mesher->GetOutput()->GetNumberOfCells(), 1.3 * free);
+  EXPECT_EQ(mesher->GetStageRuns("Tighten"), 1);
+  mesher->SetInputData(1, nullptr);
+  mesher->Update();
+  EXPECT_EQ(mesher->GetOutput()->GetNumberOfCells(), free);
+}
+
+TEST(LabelMesher, MirroredAndOriented)
+{
+  for (const bool mirrored : { false, true })
+  {
+    const auto volume = TwoSpheres(40);
+    Mat3 direction = Mat3::Identity();
+    direction(2, 2) = mirrored ? -1 : 1;
+    SetFrame(volume, GridFrame(FrameOf(volume).Extent(), Vec3(5, 6, 7), Vec3(1, 1.25, 0.8), direction));
+    vtkNew<vtkLabelMesher> mesher;
+    mesher->SetInputData(volume);
+    mesher->Update();
+    const MeshCheck check = CheckOf(mesher->GetOutput());
+    const double sphere = 4.0 / 3.0 * M_PI * std::pow(34 * 40.0 / 128, 3);
+    EXPECT_TRUE(check.Materials[1].EdgeManifold() && check.Materials[1].Oriented());
+    EXPECT_NEAR(check.Materials[1].Volume, sphere, 0.12 * sphere) << "outward, whichever way the image is";
+  }
+}
+
+TEST(LabelMesher, ErrorsAreItsOwnAndSaidOnce)
+{
+  vtkNew<vtkLabelMesher> mesher;
+  Complaints complaints(mesher);
+  mesher->SetInputData(LabelVolume({ 0, 9, 0, 9, 0, 0 }, [](int, int, int) { return 1; }));
+  mesher->Update();
+  EXPECT_EQ(complaints.Count, 1) << complaints.Text;
+  EXPECT_TRUE(complaints.Say("vtkLabelMesher")) << complaints.Text;
+  EXPECT_FALSE(complaints.Say("vtkLabelSplit")) << complaints.Text;
+  EXPECT_EQ(mesher->GetOutput()->GetNumberOfCells(), 0);
+  mesher->SetInputData(TwoSpheres(32));
+  mesher->Update();
+  EXPECT_GT(mesher->GetOutput()->GetNumberOfCells(), 100) << "works again after an error";
+}
+
+TEST(LabelMesher, AbortStopsTheRunningStage)
+{
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(TwoSpheres(48));
+  Stopper stopper(mesher, 0.1);
+  mesher->Update();
+  EXPECT_EQ(mesher->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(mesher->GetStageRuns("DelaunayLabelMesh"), 0);
+  EXPECT_EQ(mesher->GetStageRuns("SizingField"), 0) << "a tenth of the way is within Tighten";
+  mesher->RemoveObserver(stopper.Tag);
+  mesher->SetAbortExecute(0);
+  mesher->Modified();
+  mesher->Update();
+  EXPECT_GT(mesher->GetOutput()->GetNumberOfCells(), 100) << "runs again after an abort";
+}
+
+TEST(LabelMesher, ProgressNamesTheStages)
+{
+  struct Notes
+  {
+    std::string Text;
+    double Last = 0.0;
+    bool Monotone = true;
+    void Note(vtkObject* caller, unsigned long, void*)
+    {
+      vtkAlgorithm* filter = vtkAlgorithm::SafeDownCast(caller);
+      this->Monotone = this->Monotone && filter->GetProgress() >= this->Last - 1e-9;
+      this->Last = filter->GetProgress();
+      this->Text += filter->GetProgressText() ? filter->GetProgressText() : "";
+    }
+  } notes;
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(TwoSpheres(24));
+  mesher->AddObserver(vtkCommand::ProgressEvent, &notes, &Notes::Note);
+  mesher->Update();
+  for (int s = 0; s < mesher->GetNumberOfStages(); ++s)
+  {
+    EXPECT_NE(notes.Text.find(mesher->GetStageName(s)), std::string::npos) << mesher->GetStageName(s);
+  }
+  EXPECT_TRUE(notes.Monotone);
+  EXPECT_NEAR(notes.Last, 1.0, 1e-6);
+}
