@@ -38,14 +38,16 @@ void InitializeOutputs(vtkAlgorithm* filter)
 
 Monitor MonitorOf(vtkAlgorithm* filter)
 {
-  return Monitor([filter](double fraction, const std::string& text) {
-    if (!text.empty())
+  return Monitor(
+    [filter](double fraction, const std::string& text)
     {
-      filter->SetProgressText(text.c_str());
-    }
-    filter->UpdateProgress(fraction);
-    return WantsToStop(filter);
-  });
+      if (!text.empty())
+      {
+        filter->SetProgressText(text.c_str());
+      }
+      filter->UpdateProgress(fraction);
+      return WantsToStop(filter);
+    });
 }
 
 int RunStage(vtkAlgorithm* filter, const std::function<void(const Monitor&)>& work)

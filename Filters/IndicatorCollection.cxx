@@ -43,7 +43,8 @@ vtkInformationIntegerVectorKey* FrameExtentKey() // extent and padding
 }
 vtkInformationDoubleVectorKey* FrameGeometryKey() // origin, spacing, direction row by row
 {
-  static vtkInformationDoubleVectorKey* const key = new vtkInformationDoubleVectorKey("FRAME_GEOMETRY", "LabelMesh", 15);
+  static vtkInformationDoubleVectorKey* const key =
+    new vtkInformationDoubleVectorKey("FRAME_GEOMETRY", "LabelMesh", 15);
   return key;
 }
 
@@ -67,7 +68,8 @@ std::array<double, 9> RowsOf(const Mat3& direction)
   return rows;
 }
 
-void AddNumbers(vtkFieldData* fieldData, const char* name, vtkDataArray* array, int components, const double* values, int n)
+void AddNumbers(
+  vtkFieldData* fieldData, const char* name, vtkDataArray* array, int components, const double* values, int n)
 {
   array->SetName(name);
   array->SetNumberOfComponents(components);
@@ -109,10 +111,10 @@ GridFrame ReadFrame(vtkFieldData* fieldData)
 /// The filter whose output has this array.
 std::string MakerOf(const std::string& arrayName)
 {
-  return arrayName == Names::Mask ? "Label Split"
+  return arrayName == Names::Mask       ? "Label Split"
     : arrayName == Names::TightDistance ? "Tighten"
-    : arrayName == Names::Indicator ? "Indicator Reconstruct"
-                                    : "the filter that makes '" + arrayName + "'";
+    : arrayName == Names::Indicator     ? "Indicator Reconstruct"
+                                        : "the filter that makes '" + arrayName + "'";
 }
 
 std::string BlockName(vtkPartitionedDataSetCollection* collection, unsigned int n)
@@ -282,7 +284,8 @@ CollectionHeader ReadHeader(vtkPartitionedDataSetCollection* collection)
   if (blocks != header.Materials.size())
   {
     Fail("The collection has " + std::to_string(blocks) + " blocks but its field data '" + Names::Labels + "' has " +
-      std::to_string(header.Materials.size()) + ". Connect the whole output of Label Split, Tighten or Indicator "
+      std::to_string(header.Materials.size()) +
+      ". Connect the whole output of Label Split, Tighten or Indicator "
       "Reconstruct; choose materials with the labels of Label Split.");
   }
   for (unsigned int n = 0; n < blocks; ++n)
@@ -344,7 +347,8 @@ vtkImageData* BlockImage(vtkPartitionedDataSetCollection* collection, unsigned i
   }
   if (!image)
   {
-    Fail("Block '" + BlockName(collection, n) + "' of the collection is not one image. Connect the output of Label "
+    Fail("Block '" + BlockName(collection, n) +
+      "' of the collection is not one image. Connect the output of Label "
       "Split, Tighten or Indicator Reconstruct.");
   }
   return image;
@@ -356,7 +360,8 @@ const float* BlockValues(vtkPartitionedDataSetCollection* collection, unsigned i
   vtkFloatArray* array = vtkFloatArray::FastDownCast(image->GetPointData()->GetArray(arrayName));
   if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != image->GetNumberOfPoints())
   {
-    const char* found = image->GetPointData()->GetNumberOfArrays() > 0 ? image->GetPointData()->GetArrayName(0) : nullptr;
+    const char* found =
+      image->GetPointData()->GetNumberOfArrays() > 0 ? image->GetPointData()->GetArrayName(0) : nullptr;
     Fail("Block '" + BlockName(collection, n) + "' has no float32 point array '" + arrayName + "'" +
       (found ? std::string(" (it has '") + found + "')" : std::string()) + ". Connect the output of " +
       MakerOf(arrayName) + ".");
@@ -373,7 +378,8 @@ IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const
     block.Label = header.Materials[n].Label;
     block.Frame = header.Source.LatticeOf(FrameOf(BlockImage(collection, n)));
     block.Values = BlockValues(collection, n, Names::Indicator);
-    // Blocks reach beyond the narrow band, so that their corners hold the band's end: the indicator is continuous there.
+    // Blocks reach beyond the narrow band, so that their corners hold the band's end: the indicator is continuous
+    // there.
     const double voxel = block.Frame.VoxelSize();
     const float first = block.Values[0];
     const float last = block.Values[block.Frame.Size() - 1];
@@ -425,8 +431,8 @@ bool PublishedFrame(vtkInformation* inInfo, GridFrame& source, int& padding)
     {
       const int* e = inInfo->Get(FrameExtentKey());
       const double* g = inInfo->Get(FrameGeometryKey());
-      source = GridFrame({ e[0], e[1], e[2], e[3], e[4], e[5] }, Vec3(g[0], g[1], g[2]), Vec3(g[3], g[4], g[5]),
-        DirectionFrom(g + 6));
+      source = GridFrame(
+        { e[0], e[1], e[2], e[3], e[4], e[5] }, Vec3(g[0], g[1], g[2]), Vec3(g[3], g[4], g[5]), DirectionFrom(g + 6));
       padding = e[6];
       return true;
     }

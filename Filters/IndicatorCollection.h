@@ -4,7 +4,8 @@
 // A vtkPartitionedDataSetCollection with one vtkImageData per material (one partition each), ascending by label:
 //  - block NAME = material name; one active float32 point array named Mask, TightDistance or Indicator;
 //    block field data Label (int64), Color;
-//  - collection field data: Labels, MaterialNames, MaterialColors, BackgroundLabel, VoxelSize, SourceExtent, SourceOrigin,
+//  - collection field data: Labels, MaterialNames, MaterialColors, BackgroundLabel, VoxelSize, SourceExtent,
+//  SourceOrigin,
 //    SourceDirection, Padding, IndicatorKernel, and what the stages add; assembly root "Indicators".
 // The background is a material with a block of its own, which covers the whole working grid.
 #ifndef IndicatorCollection_h
@@ -47,7 +48,8 @@ void SetFrame(vtkImageData* image, const GridFrame& frame);
 /// Default name ("Label_3") and colour (a categorical palette, by label) of a label.
 Material DefaultMaterial(LabelMesh::Label label);
 
-/// Writes and reads the materials of field data: Labels, MaterialNames, MaterialColors, BackgroundLabel. Meshes carry them too.
+/// Writes and reads the materials of field data: Labels, MaterialNames, MaterialColors, BackgroundLabel. Meshes carry
+/// them too.
 void WriteMaterials(vtkFieldData* fieldData, const std::vector<Material>& materials, LabelMesh::Label background);
 std::vector<Material> ReadMaterials(vtkFieldData* fieldData);
 
@@ -56,8 +58,8 @@ void WriteHeader(vtkPartitionedDataSetCollection* collection, const CollectionHe
 /// Throws std::invalid_argument with a sentence for the user when the collection does not keep the contract.
 CollectionHeader ReadHeader(vtkPartitionedDataSetCollection* collection);
 
-/// Appends a block on `frame` with its name, label and colour, and `values` as its active array. The memory of `values` is
-/// given back.
+/// Appends a block on `frame` with its name, label and colour, and `values` as its active array. The memory of `values`
+/// is given back.
 void AppendBlock(vtkPartitionedDataSetCollection* collection, const Material& material, const GridFrame& frame,
   const char* arrayName, std::vector<float>&& values);
 /// The n-th material's image. Throws std::invalid_argument when the block is not one image.

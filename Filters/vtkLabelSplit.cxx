@@ -136,20 +136,26 @@ bool PromisesCellData(vtkInformation* arrayInfo, vtkInformation* inInfo)
 {
   const int association = arrayInfo->Get(vtkDataObject::FIELD_ASSOCIATION());
   const char* name = arrayInfo->Get(vtkDataObject::FIELD_NAME());
-  const auto present = [&](int where) {
-    vtkImageData* image = vtkImageData::SafeDownCast(inInfo->Get(vtkDataObject::DATA_OBJECT()));
-    vtkDataSetAttributes* attributes = image ? image->GetAttributes(where) : nullptr;
-    return name ? vtkDataObject::GetNamedFieldInformation(inInfo, where, name) || (attributes && attributes->HasArray(name))
-                : vtkDataObject::GetActiveFieldInformation(inInfo, where, vtkDataSetAttributes::SCALARS) ||
-        (attributes && attributes->GetScalars());
+  // Images announce point scalars also when they have none, so the data tell, where there are any.
+  vtkImageData* image = vtkImageData::SafeDownCast(inInfo->Get(vtkDataObject::DATA_OBJECT()));
+  const bool hasData = image && image->GetNumberOfPoints() > 0;
+  const auto present = [&](int where) -> bool
+  {
+    if (hasData)
+    {
+      vtkDataSetAttributes* attributes = image->GetAttributes(where);
+      return name ? attributes->HasArray(name) != 0 : attributes->GetScalars() != nullptr;
+    }
+    return name ? vtkDataObject::GetNamedFieldInformation(inInfo, where, name) != nullptr
+                : vtkDataObject::GetActiveFieldInformation(inInfo, where, vtkDataSetAttributes::SCALARS) != nullptr;
   };
   return association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
     (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS &&
       !present(vtkDataObject::FIELD_ASSOCIATION_POINTS) && present(vtkDataObject::FIELD_ASSOCIATION_CELLS));
 }
 
-/// The array to process as labels, those that were not asked for merged into the background. `missing`: what was asked for
-/// and does not occur.
+/// The array to process as labels, those that were not asked for merged into the background. `missing`: what was asked
+/// for and does not occur.
 LabelImage LabelsToSplit(vtkLabelSplit* filter, vtkImageData* input, vtkDataArray* array, int association,
   const std::vector<vtkIdType>& asked, std::vector<Label>& missing)
 {
@@ -160,9 +166,12 @@ LabelImage LabelsToSplit(vtkLabelSplit* filter, vtkImageData* input, vtkDataArra
   }
   LabelImage image = ReadLabelImage(input, array, association == vtkDataObject::FIELD_ASSOCIATION_CELLS);
   const std::set<Label> wanted(asked.begin(), asked.end());
-  std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing), [&](Label label) {
-    return label != filter->GetBackgroundLabel() && !std::binary_search(image.Labels.begin(), image.Labels.end(), label);
-  });
+  std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(missing),
+    [&](Label label)
+    {
+      return label != filter->GetBackgroundLabel() &&
+        !std::binary_search(image.Labels.begin(), image.Labels.end(), label);
+    });
   const std::vector<Label> kept =
     asked.empty() ? std::vector<Label>(image.Labels) : std::vector<Label>(wanted.begin(), wanted.end());
   MergeIntoBackground(image, kept, filter->GetBackgroundLabel());
@@ -206,16 +215,16 @@ GridFrame BlockFrame(const GridFrame& source, const Box& box)
   return GridFrame(extent, source.Origin(), source.Spacing(), source.Direction());
 }
 
-/// Appends the blocks. Returns the labels of materials of which resampling or opening left nothing; where resampling did,
-/// there is no block.
+/// Appends the blocks. Returns the labels of materials of which resampling or opening left nothing; where resampling
+/// did, there is no block.
 std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, CollectionHeader& header,
   vtkPartitionedDataSetCollection* output, const Monitor& monitor)
 {
   const Lattice source = image.Frame.Samples();
   const int count = int(image.Labels.size());
   const std::vector<Box> boxes = BoxesOf(image.Ids, source, count);
-  const auto background = MaterialId(
-    std::lower_bound(image.Labels.begin(), image.Labels.end(), header.Background) - image.Labels.begin());
+  const auto background =
+    MaterialId(std::lower_bound(image.Labels.begin(), image.Labels.end(), header.Background) - image.Labels.begin());
   std::vector<Label> lost;
   for (int id = 0; id < count; ++id)
   {
@@ -399,45 +408,46 @@ int vtkLabelSplit::RequestUpdateExtent(vtkInformation*, vtkInformationVector** i
   return 1;
 }
 
-int vtkLabelSplit::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
-  return RunStage(this, [&](const Monitor& monitor) {
-    CollectionHeader header;
-    header.Background = this->BackgroundLabel;
-    header.Padding = this->Padding;
-    if (input->GetNumberOfPoints() == 0)
+  return RunStage(this,
+    [&](const Monitor& monitor)
     {
+      CollectionHeader header;
+      header.Background = this->BackgroundLabel;
+      header.Padding = this->Padding;
+      if (input->GetNumberOfPoints() == 0)
+      {
+        WriteHeader(output, header);
+        return;
+      }
+      monitor.Step(0.0, "Reading labels");
+      int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+      vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
+      std::vector<Label> missing;
+      LabelImage image = LabelsToSplit(this, input, array, association, this->Labels, missing);
+      monitor.Step(0.1, "Resampling");
+      Resample(image, this->ResamplingFactor);
+      header.Source = image.Frame;
+      const std::vector<Label> lost = AppendMasks(this, image, header, output, monitor.Part(0.2, 1.0));
       WriteHeader(output, header);
-      return;
-    }
-    monitor.Step(0.0, "Reading labels");
-    int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-    vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
-    std::vector<Label> missing;
-    LabelImage image = LabelsToSplit(this, input, array, association, this->Labels, missing);
-    monitor.Step(0.1, "Resampling");
-    Resample(image, this->ResamplingFactor);
-    header.Source = image.Frame;
-    const std::vector<Label> lost = AppendMasks(this, image, header, output, monitor.Part(0.2, 1.0));
-    WriteHeader(output, header);
-    if (!missing.empty())
-    {
-      vtkWarningMacro("No sample has the labels " << ListOf(missing) << ", which were asked for.");
-    }
-    if (!lost.empty())
-    {
-      vtkWarningMacro("Nothing is left of the materials " << ListOf(lost)
-        << ". Use a smaller opening radius or a larger resampling factor.");
-    }
-    if (header.Materials.size() == 1)
-    {
-      vtkWarningMacro("There is nothing to mesh: every voxel has the background label " << this->BackgroundLabel
-        << (this->Labels.empty() ? "." : " or a label that was not asked for."));
-    }
-  });
+      if (!missing.empty())
+      {
+        vtkWarningMacro("No sample has the labels " << ListOf(missing) << ", which were asked for.");
+      }
+      if (!lost.empty())
+      {
+        vtkWarningMacro("Nothing is left of the materials "
+          << ListOf(lost) << ". Use a smaller opening radius or a larger resampling factor.");
+      }
+      if (header.Materials.size() == 1)
+      {
+        vtkWarningMacro("There is nothing to mesh: every voxel has the background label "
+          << this->BackgroundLabel << (this->Labels.empty() ? "." : " or a label that was not asked for."));
+      }
+    });
 }
 
 void vtkLabelSplit::PrintSelf(ostream& os, vtkIndent indent)
@@ -454,7 +464,8 @@ void vtkLabelSplit::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ResamplingFactor: " << this->ResamplingFactor << "\n";
   os << indent << "OpeningRadius: " << this->OpeningRadius << "\n";
   os << indent << "ClosingRadius: " << this->ClosingRadius << "\n";
-  const auto print = [&](const char* what, const auto& map) {
+  const auto print = [&](const char* what, const auto& map)
+  {
     os << indent << what << ":";
     for (const auto& [label, value] : map)
     {

@@ -4,31 +4,31 @@
  * @brief   One mask per material of a label volume: the first stage.
  *
  * Input port 0 (vtkImageData): labels, SetInputArrayToProcess(0, ...), by default the active point or cell scalars; any
- * integer type, or floats that hold integers; negative labels too. Any extent, spacing and direction matrix. Cell data are
- * samples at the cells' centres.
+ * integer type, or floats that hold integers; negative labels too. Any extent, spacing and direction matrix. Cell data
+ * are samples at the cells' centres.
  *
- * Output port 0 (vtkPartitionedDataSetCollection): one vtkImageData per material, ascending by label, the background among
- * them (see IndicatorCollection.h).
+ * Output port 0 (vtkPartitionedDataSetCollection): one vtkImageData per material, ascending by label, the background
+ * among them (see IndicatorCollection.h).
  *  - block point data "Mask" (float32): 1 inside, 0 outside
  *  - block field data "Label" (int64), "Color" (float64 x 3); block name: the material's name
- *  - field data of the collection: Labels (int64), MaterialNames (string), MaterialColors (float64 x 3), BackgroundLabel
- *    (int64), SourceExtent (int32 x 6), SourceOrigin (float64 x 3), SourceDirection (float64 x 9), VoxelSize (float64 x 3:
- *    the spacing), Padding (int32)
- * A block reaches Padding samples beyond its material; the background's covers the whole working grid, which is the source
- * grid with Padding samples around it. The same grid is published for filters that make images of it.
+ *  - field data of the collection: Labels (int64), MaterialNames (string), MaterialColors (float64 x 3),
+ * BackgroundLabel (int64), SourceExtent (int32 x 6), SourceOrigin (float64 x 3), SourceDirection (float64 x 9),
+ * VoxelSize (float64 x 3: the spacing), Padding (int32) A block reaches Padding samples beyond its material; the
+ * background's covers the whole working grid, which is the source grid with Padding samples around it. The same grid is
+ * published for filters that make images of it.
  *
- * Method: one pass over the labels finds the materials and their boxes, one pass over each box makes its mask. Space outside
- * the volume, and labels that are not asked for, belong to the background.
- *  - ResamplingFactor: each label's 0/1 function is interpolated linearly at the new samples and the largest wins. The new
- *    grid covers the same voxels; its extent starts at 0. A finer grid keeps thinner parts in vtkTighten.
+ * Method: one pass over the labels finds the materials and their boxes, one pass over each box makes its mask. Space
+ * outside the volume, and labels that are not asked for, belong to the background.
+ *  - ResamplingFactor: each label's 0/1 function is interpolated linearly at the new samples and the largest wins. The
+ * new grid covers the same voxels; its extent starts at 0. A finer grid keeps thinner parts in vtkTighten.
  *  - OpeningRadius, ClosingRadius: binary opening, then closing, of a material by a ball. Other materials' masks do not
- *    change: what an opening takes away goes to the nearest material in later stages, and where a closing overlaps another
- *    material the deeper one wins. The background is changed only by a radius of its own.
+ *    change: what an opening takes away goes to the nearest material in later stages, and where a closing overlaps
+ * another material the deeper one wins. The background is changed only by a radius of its own.
  *
  * Limits: 65534 labels; memory is that of the boxes, four bytes a sample.
  *
- * Errors: no array of labels, several components, a value that is not an integer, a two-dimensional image, options out of
- * range. Warnings: labels that were asked for and do not occur, a material that its opening took away, nothing but
+ * Errors: no array of labels, several components, a value that is not an integer, a two-dimensional image, options out
+ * of range. Warnings: labels that were asked for and do not occur, a material that its opening took away, nothing but
  * background (the output then has the background's block alone). An empty image gives an empty collection.
  */
 #ifndef vtkLabelSplit_h
@@ -48,6 +48,9 @@ public:
   static vtkLabelSplit* New();
   vtkTypeMacro(vtkLabelSplit, vtkPartitionedDataSetCollectionAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// The label image, without a pipeline.
+  void SetInputData(vtkDataObject* input) { this->SetInputDataInternal(0, input); }
 
   ///@{
   /// The labels to mesh; all others become background. Default: none given, which means all that occur.

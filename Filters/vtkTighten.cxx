@@ -64,20 +64,22 @@ struct Job
 /// Tightens many small materials at once. Each runs in one thread; exceptions wait until all are done.
 void TightenTogether(std::vector<Job>& jobs, const std::vector<std::size_t>& chosen)
 {
-  ParallelFor(0, Index(chosen.size()), 1, [&](Index first, Index last) {
-    for (Index n = first; n < last; ++n)
+  ParallelFor(0, Index(chosen.size()), 1,
+    [&](Index first, Index last)
     {
-      Job& job = jobs[chosen[n]];
-      try
+      for (Index n = first; n < last; ++n)
       {
-        job.Result = Tighten(job.Frame, job.Mask, job.Options, Monitor());
+        Job& job = jobs[chosen[n]];
+        try
+        {
+          job.Result = Tighten(job.Frame, job.Mask, job.Options, Monitor());
+        }
+        catch (...)
+        {
+          job.Problem = std::current_exception();
+        }
       }
-      catch (...)
-      {
-        job.Problem = std::current_exception();
-      }
-    }
-  });
+    });
   for (const std::size_t n : chosen)
   {
     if (jobs[n].Problem)
@@ -98,10 +100,12 @@ void TightenAll(std::vector<Job>& jobs, const std::vector<Material>& materials, 
   }
   std::vector<std::size_t> batch;
   Index inBatch = 0;
-  const auto finishBatch = [&]() {
+  const auto finishBatch = [&]()
+  {
     if (!batch.empty())
     {
-      monitor.Step(done / total, "Tightening " + materials[batch.front()].Name +
+      monitor.Step(done / total,
+        "Tightening " + materials[batch.front()].Name +
           (batch.size() > 1 ? " and " + std::to_string(batch.size() - 1) + " more" : ""));
       TightenTogether(jobs, batch);
     }
@@ -119,10 +123,12 @@ void TightenAll(std::vector<Job>& jobs, const std::vector<Material>& materials, 
       const std::string& name = materials[n].Name;
       part.Step(0.0, "Tightening " + name);
       job.Result = Tighten(job.Frame, job.Mask, job.Options,
-        Monitor([&part, &name](double fraction, const std::string& text) {
-          part.Step(fraction, text + " of " + name); // throws to stop
-          return false;
-        }));
+        Monitor(
+          [&part, &name](double fraction, const std::string& text)
+          {
+            part.Step(fraction, text + " of " + name); // throws to stop
+            return false;
+          }));
       done += double(size);
     }
     else
@@ -161,8 +167,9 @@ std::string LossesOf(const std::vector<Job>& jobs, const CollectionHeader& heade
     if (kept < 1 - LargeLoss && header.Materials[n].Label != header.Background && ++count <= LongestList)
     {
       char figures[128];
-      std::snprintf(figures, sizeof(figures), kept > 0 ? "loses %.0f %% of its volume (radius %g)" : "vanishes (%.0f %%, radius %g)",
-        100 * (1 - kept), jobs[n].Options.Radius);
+      std::snprintf(figures, sizeof(figures),
+        kept > 0 ? "loses %.0f %% of its volume (radius %g)" : "vanishes (%.0f %%, radius %g)", 100 * (1 - kept),
+        jobs[n].Options.Radius);
       text += (count > 1 ? "; " : "") + header.Materials[n].Name + " " + figures;
     }
   }
@@ -216,43 +223,46 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
-  return RunStage(this, [&](const Monitor& monitor) {
-    const CollectionHeader header = ReadHeader(input);
-    std::vector<Job> jobs(header.Materials.size());
-    for (unsigned int n = 0; n < jobs.size(); ++n)
+  return RunStage(this,
+    [&](const Monitor& monitor)
     {
-      jobs[n].Frame = header.Source.LatticeOf(FrameOf(BlockImage(input, n)));
-      jobs[n].Mask = BlockValues(input, n, Names::Mask);
-      jobs[n].Options = OptionsOf(this, header.Materials[n].Label);
-    }
-    const std::string unknown = UnknownLabels(this->MaterialRadii, header);
-    if (!unknown.empty())
-    {
-      vtkWarningMacro("SetMaterialRadius names labels that are not among the materials:" << unknown << ".");
-    }
-    TightenAll(jobs, header.Materials, monitor);
-    const std::string losses = LossesOf(jobs, header);
-    if (!losses.empty())
-    {
-      vtkWarningMacro("" << losses << ". Give what is thin a smaller radius with SetMaterialRadius, or a finer grid with the "
-        << "resampling factor of Label Split.");
-    }
-    if (input->GetFieldData())
-    {
-      output->GetFieldData()->ShallowCopy(input->GetFieldData());
-    }
-    std::vector<double> maskVolumes, tightVolumes;
-    for (unsigned int n = 0; n < jobs.size(); ++n)
-    {
-      maskVolumes.push_back(jobs[n].Result.MaskVolume);
-      tightVolumes.push_back(jobs[n].Result.TightVolume);
-      AppendBlock(output, header.Materials[n], FrameOf(BlockImage(input, n)), Names::TightDistance,
-        std::move(jobs[n].Result.Distance));
-    }
-    WriteHeader(output, header);
-    AddVolumes(output->GetFieldData(), Names::MaskVolumes, maskVolumes);
-    AddVolumes(output->GetFieldData(), Names::TightVolumes, tightVolumes);
-  });
+      const CollectionHeader header = ReadHeader(input);
+      std::vector<Job> jobs(header.Materials.size());
+      for (unsigned int n = 0; n < jobs.size(); ++n)
+      {
+        jobs[n].Frame = header.Source.LatticeOf(FrameOf(BlockImage(input, n)));
+        jobs[n].Mask = BlockValues(input, n, Names::Mask);
+        jobs[n].Options = OptionsOf(this, header.Materials[n].Label);
+      }
+      const std::string unknown = UnknownLabels(this->MaterialRadii, header);
+      if (!unknown.empty())
+      {
+        vtkWarningMacro("SetMaterialRadius names labels that are not among the materials:" << unknown << ".");
+      }
+      TightenAll(jobs, header.Materials, monitor);
+      const std::string losses = LossesOf(jobs, header);
+      if (!losses.empty())
+      {
+        vtkWarningMacro("" << losses
+                           << ". Give what is thin a smaller radius with SetMaterialRadius, or a finer grid with the "
+                           << "resampling factor of Label Split.");
+      }
+      if (input->GetFieldData())
+      {
+        output->GetFieldData()->ShallowCopy(input->GetFieldData());
+      }
+      std::vector<double> maskVolumes, tightVolumes;
+      for (unsigned int n = 0; n < jobs.size(); ++n)
+      {
+        maskVolumes.push_back(jobs[n].Result.MaskVolume);
+        tightVolumes.push_back(jobs[n].Result.TightVolume);
+        AppendBlock(output, header.Materials[n], FrameOf(BlockImage(input, n)), Names::TightDistance,
+          std::move(jobs[n].Result.Distance));
+      }
+      WriteHeader(output, header);
+      AddVolumes(output->GetFieldData(), Names::MaskVolumes, maskVolumes);
+      AddVolumes(output->GetFieldData(), Names::TightVolumes, tightVolumes);
+    });
 }
 
 void vtkTighten::PrintSelf(ostream& os, vtkIndent indent)

@@ -15,8 +15,8 @@
  * Method (see Core/LevelSet.h), in a narrow band of each material by itself:
  *  - exact signed distance of the mask;
  *  - antialiasing (Whitaker 2000): AntialiasIterations of curvature flow that keep every voxel on its side;
- *  - tightening (Williams and Rossignac 2005): TightenIterations of curvature flow between the opening and the closing by a
- *    ball of Radius. Then |mean curvature| <= 1 / Radius, and only the mortar between the two bounds has changed.
+ *  - tightening (Williams and Rossignac 2005): TightenIterations of curvature flow between the opening and the closing
+ * by a ball of Radius. Then |mean curvature| <= 1 / Radius, and only the mortar between the two bounds has changed.
  *
  * Limits: parts thinner than twice the radius vanish, whole small materials with them. The fields of neighbouring
  * materials are smoothed apart from each other: the largest wins where both or neither is positive.
@@ -38,6 +38,9 @@ public:
   static vtkTighten* New();
   vtkTypeMacro(vtkTighten, vtkPartitionedDataSetCollectionAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// The masks, without a pipeline.
+  void SetInputData(vtkDataObject* input) { this->SetInputDataInternal(0, input); }
 
   ///@{
   /// The least radius of curvature, voxels; 0: antialiasing alone. Default 1.

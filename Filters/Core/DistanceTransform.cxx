@@ -41,7 +41,8 @@ std::vector<StampRow> Ball(const Lattice& frame, Distance&& distance, double bou
   int reach[3] = { 0, 0, 0 };
   for (int a = 0; a < 3; ++a)
   {
-    while (reach[a] < frame.Dims[a] && within(a == 0 ? reach[a] + 1 : 0, a == 1 ? reach[a] + 1 : 0, a == 2 ? reach[a] + 1 : 0))
+    while (reach[a] < frame.Dims[a] &&
+      within(a == 0 ? reach[a] + 1 : 0, a == 1 ? reach[a] + 1 : 0, a == 2 ? reach[a] + 1 : 0))
     {
       ++reach[a];
     }
@@ -81,8 +82,9 @@ void FindBoundary(const Lattice& frame, const Sides& sides, int k, std::vector<I
     const std::uint8_t* neighbours[4] = { j > 0 ? row - nx : row, j + 1 < ny ? row + nx : row,
       k > 0 ? row - nx * ny : row, k + 1 < nz ? row + nx * ny : row };
     const std::size_t bytes = static_cast<std::size_t>(nx);
-    if (!std::memchr(row, !row[0], bytes) && std::all_of(neighbours, neighbours + 4,
-          [&](const std::uint8_t* other) { return std::memcmp(row, other, bytes) == 0; }))
+    if (!std::memchr(row, !row[0], bytes) &&
+      std::all_of(
+        neighbours, neighbours + 4, [&](const std::uint8_t* other) { return std::memcmp(row, other, bytes) == 0; }))
     {
       continue; // most rows
     }
@@ -102,70 +104,80 @@ void FindBoundary(const Lattice& frame, const Sides& sides, int k, std::vector<I
 std::vector<std::vector<Index>> FindBoundaries(const Lattice& frame, const Sides& sides)
 {
   std::vector<std::vector<Index>> slices(frame.Dims[2]);
-  ParallelFor(0, frame.Dims[2], 0, [&](Index first, Index last) {
-    for (Index k = first; k < last; ++k)
+  ParallelFor(0, frame.Dims[2], 0,
+    [&](Index first, Index last)
     {
-      FindBoundary(frame, sides, int(k), slices[k]);
-    }
-  });
+      for (Index k = first; k < last; ++k)
+      {
+        FindBoundary(frame, sides, int(k), slices[k]);
+      }
+    });
   return slices;
 }
 
-/// Calls stamp(boundary sample, row, first target, first offset, length) for every row of every ball around the boundary
-/// samples, clipped to the lattice, and prepare(first, last) on each range of samples before. Tasks own slabs of targets.
+/// Calls stamp(boundary sample, row, first target, first offset, length) for every row of every ball around the
+/// boundary samples, clipped to the lattice, and prepare(first, last) on each range of samples before. Tasks own slabs
+/// of targets.
 template <typename Prepare, typename Stamp>
-void StampBalls(const Lattice& frame, const std::vector<std::vector<Index>>& boundary, const std::vector<StampRow>& ball,
-  Prepare&& prepare, Stamp&& stamp)
+void StampBalls(const Lattice& frame, const std::vector<std::vector<Index>>& boundary,
+  const std::vector<StampRow>& ball, Prepare&& prepare, Stamp&& stamp)
 {
   const int nx = frame.Dims[0], ny = frame.Dims[1], nz = frame.Dims[2];
   const int reach = ball.empty() ? 0 : ball.back().K;
-  ParallelFor(0, (nz + SlabThickness - 1) / SlabThickness, 1, [&](Index firstSlab, Index lastSlab) {
-    const int k0 = int(firstSlab) * SlabThickness, k1 = std::min(int(lastSlab) * SlabThickness, nz);
-    prepare(frame.At(0, 0, k0), frame.At(0, 0, k1));
-    for (int k = std::max(k0 - reach, 0); k < std::min(k1 + reach, nz); ++k)
+  ParallelFor(0, (nz + SlabThickness - 1) / SlabThickness, 1,
+    [&](Index firstSlab, Index lastSlab)
     {
-      for (const Index at : boundary[k])
+      const int k0 = int(firstSlab) * SlabThickness, k1 = std::min(int(lastSlab) * SlabThickness, nz);
+      prepare(frame.At(0, 0, k0), frame.At(0, 0, k1));
+      for (int k = std::max(k0 - reach, 0); k < std::min(k1 + reach, nz); ++k)
       {
-        const auto [i, j, unused] = frame.Coordinates(at);
-        static_cast<void>(unused);
-        for (const StampRow& row : ball)
+        for (const Index at : boundary[k])
         {
-          const int jj = j + row.J, kk = k + row.K;
-          if (kk >= k0 && kk < k1 && jj >= 0 && jj < ny)
+          const auto [i, j, unused] = frame.Coordinates(at);
+          static_cast<void>(unused);
+          for (const StampRow& row : ball)
           {
-            const int first = std::max(-row.Reach, -i), last = std::min(row.Reach, nx - 1 - i);
-            stamp(at, row, frame.At(i + first, jj, kk), first + row.Reach, last - first + 1);
+            const int jj = j + row.J, kk = k + row.K;
+            if (kk >= k0 && kk < k1 && jj >= 0 && jj < ny)
+            {
+              const int first = std::max(-row.Reach, -i), last = std::min(row.Reach, nx - 1 - i);
+              stamp(at, row, frame.At(i + first, jj, kk), first + row.Reach, last - first + 1);
+            }
           }
         }
       }
-    }
-  });
+    });
 }
 }
 
 Sides SidesOf(const float* mask, Index count)
 {
   Sides sides(static_cast<std::size_t>(count));
-  ParallelFor(0, count, 0, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  ParallelFor(0, count, 0,
+    [&](Index first, Index last)
     {
-      sides[i] = mask[i] > 0.5f;
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        sides[i] = mask[i] > 0.5f;
+      }
+    });
   return sides;
 }
 
 void SignedDistance(const Lattice& frame, const Sides& sides, double band, float* distance)
 {
-  const auto ball = Ball(frame, [&](const Vec3& v) { return InterfaceDistance(v, frame.Spacing); }, band);
+  const auto ball = Ball(
+    frame, [&](const Vec3& v) { return InterfaceDistance(v, frame.Spacing); }, band);
   const float end = float(band);
-  const auto prepare = [&](Index first, Index last) {
+  const auto prepare = [&](Index first, Index last)
+  {
     for (Index at = first; at < last; ++at)
     {
       distance[at] = sides[at] ? end : -end;
     }
   };
-  const auto stamp = [&](Index from, const StampRow& row, Index to, int offset, int length) {
+  const auto stamp = [&](Index from, const StampRow& row, Index to, int offset, int length)
+  {
     float* __restrict target = distance + to;
     const float* __restrict values = row.Distances.data() + offset;
     if (sides[from])
@@ -198,11 +210,12 @@ Sides Grown(const Lattice& frame, const Sides& sides, std::uint8_t value, double
 {
   Sides grown(sides.size());
   const double inclusive = radius * (1 + 1e-9);
-  const auto ball = Ball(frame, [](const Vec3& v) { return v.norm(); }, inclusive);
-  const auto prepare = [&](Index first, Index last) {
-    std::copy(sides.begin() + first, sides.begin() + last, grown.begin() + first);
-  };
-  const auto stamp = [&](Index from, const StampRow&, Index to, int, int length) {
+  const auto ball = Ball(
+    frame, [](const Vec3& v) { return v.norm(); }, inclusive);
+  const auto prepare = [&](Index first, Index last)
+  { std::copy(sides.begin() + first, sides.begin() + last, grown.begin() + first); };
+  const auto stamp = [&](Index from, const StampRow&, Index to, int, int length)
+  {
     if (sides[from] == value)
     {
       std::memset(grown.data() + to, value, static_cast<std::size_t>(length));

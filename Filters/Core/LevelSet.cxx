@@ -18,8 +18,8 @@ void Check(const TightenOptions& options)
 {
   if (!(options.Radius >= 0) || options.Radius > LargestRadius)
   {
-    throw std::invalid_argument("The tightening radius is " + std::to_string(options.Radius) + " voxels; expected 0 to " +
-      std::to_string(int(LargestRadius)) + ".");
+    throw std::invalid_argument("The tightening radius is " + std::to_string(options.Radius) +
+      " voxels; expected 0 to " + std::to_string(int(LargestRadius)) + ".");
   }
   if (options.AntialiasIterations < 0 || options.TightenIterations < 0)
   {
@@ -33,8 +33,8 @@ void Check(const TightenOptions& options)
 }
 
 /// Bound of the flow: the opening (radius > 0) or the closing (radius < 0) by a ball, as a distance, packed.
-/// `original` is what phi was, and is again.  An opening is never larger than the original, a closing never smaller; where
-/// features are as thin as the samples are apart, re-distancing alone would not see to that.
+/// `original` is what phi was, and is again.  An opening is never larger than the original, a closing never smaller;
+/// where features are as thin as the samples are apart, re-distancing alone would not see to that.
 std::vector<float> OpeningOrClosing(NarrowBand& band, const std::vector<float>& original, double radius, double reach)
 {
   band.Shift(-radius);
@@ -43,12 +43,14 @@ std::vector<float> OpeningOrClosing(NarrowBand& band, const std::vector<float>& 
   band.Redistance(reach);
   std::vector<float> bound = band.Pack();
   band.Unpack(original);
-  ParallelFor(0, Index(bound.size()), 0, [&](Index first, Index last) {
-    for (Index i = first; i < last; ++i)
+  ParallelFor(0, Index(bound.size()), 0,
+    [&](Index first, Index last)
     {
-      bound[i] = radius > 0 ? std::min(bound[i], original[i]) : std::max(bound[i], original[i]);
-    }
-  });
+      for (Index i = first; i < last; ++i)
+      {
+        bound[i] = radius > 0 ? std::min(bound[i], original[i]) : std::max(bound[i], original[i]);
+      }
+    });
   return bound;
 }
 }

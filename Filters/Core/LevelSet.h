@@ -29,7 +29,8 @@ struct TightenResult
 /// 1. Exact signed distance in a narrow band (SignedDistance).
 /// 2. Antialiasing (Whitaker 2000): curvature flow that keeps every sample on its side; re-distancing.
 ///    An iteration is 0.2 voxels squared of time. More than 10 are worse: the clamp makes kinks.
-/// 3. Tightening (Williams and Rossignac 2005): the opening and the closing by a ball of Radius are bounds between which
+/// 3. Tightening (Williams and Rossignac 2005): the opening and the closing by a ball of Radius are bounds between
+/// which
 ///    curvature flow runs: only the mortar, which is between them, changes, and |mean curvature| <= 1 / Radius.
 /// 4. Re-distancing.
 /// Spacing enters every step; with unequal spacings an iteration is cut into as many stable steps as it needs.
@@ -37,8 +38,7 @@ struct TightenResult
 /// What is thinner than 2 Radius vanishes, small materials with it: compare TightVolume with MaskVolume.
 /// An empty or full mask gives -Band or +Band everywhere.
 /// Throws std::invalid_argument for options out of range, Aborted when the monitor asks to stop.
-TightenResult Tighten(
-  const Lattice& frame, const float* mask, const TightenOptions& options, const Monitor& monitor);
+TightenResult Tighten(const Lattice& frame, const float* mask, const TightenOptions& options, const Monitor& monitor);
 }
 
 #endif

@@ -101,38 +101,39 @@ GridFrame Resampled(const GridFrame& source, double factor)
   return GridFrame(extent, source.LocalToWorld(first), spacing, source.Direction());
 }
 
-std::vector<MaterialId> ResampleLabels(
-  const std::vector<MaterialId>& ids, const GridFrame& from, const GridFrame& to)
+std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const GridFrame& from, const GridFrame& to)
 {
   const Lattice source = from.Samples(), target = to.Samples();
   const std::vector<Support> x = SupportsAlong(0, from, to), y = SupportsAlong(1, from, to),
                              z = SupportsAlong(2, from, to);
   std::vector<MaterialId> resampled(static_cast<std::size_t>(target.Size()));
-  ParallelFor(0, Index(target.Dims[1]) * target.Dims[2], 0, [&](Index firstRow, Index lastRow) {
-    Votes votes;
-    for (Index row = firstRow; row < lastRow; ++row)
+  ParallelFor(0, Index(target.Dims[1]) * target.Dims[2], 0,
+    [&](Index firstRow, Index lastRow)
     {
-      const Support& sy = y[row % target.Dims[1]];
-      const Support& sz = z[row / target.Dims[1]];
-      for (int i = 0; i < target.Dims[0]; ++i)
+      Votes votes;
+      for (Index row = firstRow; row < lastRow; ++row)
       {
-        const Support& sx = x[i];
-        votes.Clear();
-        for (std::size_t c = 0; c < sz.Weights.size(); ++c)
+        const Support& sy = y[row % target.Dims[1]];
+        const Support& sz = z[row / target.Dims[1]];
+        for (int i = 0; i < target.Dims[0]; ++i)
         {
-          for (std::size_t b = 0; b < sy.Weights.size(); ++b)
+          const Support& sx = x[i];
+          votes.Clear();
+          for (std::size_t c = 0; c < sz.Weights.size(); ++c)
           {
-            const MaterialId* from0 = ids.data() + source.At(sx.First, sy.First + Index(b), sz.First + Index(c));
-            for (std::size_t a = 0; a < sx.Weights.size(); ++a)
+            for (std::size_t b = 0; b < sy.Weights.size(); ++b)
             {
-              votes.Add(from0[a], sx.Weights[a] * sy.Weights[b] * sz.Weights[c]);
+              const MaterialId* from0 = ids.data() + source.At(sx.First, sy.First + Index(b), sz.First + Index(c));
+              for (std::size_t a = 0; a < sx.Weights.size(); ++a)
+              {
+                votes.Add(from0[a], sx.Weights[a] * sy.Weights[b] * sz.Weights[c]);
+              }
             }
           }
+          resampled[row * target.Dims[0] + i] = votes.Winner();
         }
-        resampled[row * target.Dims[0] + i] = votes.Winner();
       }
-    }
-  });
+    });
   return resampled;
 }
 
@@ -167,23 +168,25 @@ namespace
 {
 /// Calls set(sample of the box, whether it has the id) for all samples of the box.
 template <typename Set>
-void ForBox(const std::vector<MaterialId>& ids, const Lattice& lattice, MaterialId id, MaterialId background, const Box& box,
-  Set&& set)
+void ForBox(const std::vector<MaterialId>& ids, const Lattice& lattice, MaterialId id, MaterialId background,
+  const Box& box, Set&& set)
 {
   const Index nx = box[1] - box[0] + 1, ny = box[3] - box[2] + 1, nz = box[5] - box[4] + 1;
   const bool beyond = id == background;
-  ParallelFor(0, ny * nz, 0, [&](Index first, Index last) {
-    for (Index row = first; row < last; ++row)
+  ParallelFor(0, ny * nz, 0,
+    [&](Index first, Index last)
     {
-      const Index j = box[2] + row % ny, k = box[4] + row / ny;
-      const bool within = j >= 0 && j < lattice.Dims[1] && k >= 0 && k < lattice.Dims[2];
-      const MaterialId* from = within ? ids.data() + lattice.At(0, j, k) : nullptr;
-      for (Index i = box[0]; i <= box[1]; ++i)
+      for (Index row = first; row < last; ++row)
       {
-        set(row * nx + i - box[0], from && i >= 0 && i < lattice.Dims[0] ? from[i] == id : beyond);
+        const Index j = box[2] + row % ny, k = box[4] + row / ny;
+        const bool within = j >= 0 && j < lattice.Dims[1] && k >= 0 && k < lattice.Dims[2];
+        const MaterialId* from = within ? ids.data() + lattice.At(0, j, k) : nullptr;
+        for (Index i = box[0]; i <= box[1]; ++i)
+        {
+          set(row * nx + i - box[0], from && i >= 0 && i < lattice.Dims[0] ? from[i] == id : beyond);
+        }
       }
-    }
-  });
+    });
 }
 }
 

@@ -12,15 +12,14 @@ namespace LabelMesh
 /// Index range of samples, inclusive, as an extent: first and last along each axis. Empty when last < first.
 using Box = std::array<int, 6>;
 
-/// The grid with `factor` samples per voxel along each axis, over the same box of voxels (which reaches half a voxel beyond
-/// the outermost samples). The number of samples is rounded, and the spacing follows from it. factor = 1: the same grid.
-/// Throws std::invalid_argument when an axis would get more than 2^31 - 1 samples.
+/// The grid with `factor` samples per voxel along each axis, over the same box of voxels (which reaches half a voxel
+/// beyond the outermost samples). The number of samples is rounded, and the spacing follows from it. factor = 1: the
+/// same grid. Throws std::invalid_argument when an axis would get more than 2^31 - 1 samples.
 GridFrame Resampled(const GridFrame& source, double factor);
 
-/// The ids on a finer or coarser grid: each id's 0/1 function is interpolated linearly (averaged with a tent as wide as the
-/// new voxel on a coarser grid), and the largest wins; ties go to the smaller id.
-std::vector<MaterialId> ResampleLabels(
-  const std::vector<MaterialId>& ids, const GridFrame& from, const GridFrame& to);
+/// The ids on a finer or coarser grid: each id's 0/1 function is interpolated linearly (averaged with a tent as wide as
+/// the new voxel on a coarser grid), and the largest wins; ties go to the smaller id.
+std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const GridFrame& from, const GridFrame& to);
 
 /// The box of every id below `count`, relative to the first sample of the lattice. One pass over the volume.
 std::vector<Box> BoxesOf(const std::vector<MaterialId>& ids, const Lattice& lattice, int count);

@@ -43,8 +43,9 @@ struct CurvatureStencil
   }
 
   /// to = phi + Step curvature |grad phi|.
-  /// curvature |grad phi| = ((|grad|^2 I - grad grad^T) : Hessian) / |grad|^2. Where the gradient vanishes, on the ridges of
-  /// thin parts, it is taken to have the direction of the strongest second difference: a plate stays, a speck shrinks.
+  /// curvature |grad phi| = ((|grad|^2 I - grad grad^T) : Hessian) / |grad|^2. Where the gradient vanishes, on the
+  /// ridges of thin parts, it is taken to have the direction of the strongest second difference: a plate stays, a speck
+  /// shrinks.
   template <typename Clamp>
   void Apply(const float* __restrict phi, float* __restrict to, Index count, Clamp&& clamp) const
   {
@@ -89,7 +90,8 @@ void UpwindStep(const float* __restrict phi, float* __restrict to, const float* 
     const float* p = phi + i;
     const float s = signs[i];
     // How far the sample is above its lower neighbour, as seen from the zero set.
-    const auto rise = [&](Index axis, float scale) {
+    const auto rise = [&](Index axis, float scale)
+    {
       const float a = s * (p[0] - p[-axis]), b = s * (p[0] - p[axis]);
       const float larger = a > b ? a : b;
       return (larger > 0 ? larger : 0.0f) * scale;
@@ -99,8 +101,9 @@ void UpwindStep(const float* __restrict phi, float* __restrict to, const float* 
   }
 }
 
-/// Squared slope along an axis for the distance to the zero set; `crosses` becomes true when the zero set lies between the
-/// sample and a neighbour. There the difference across the zero set keeps it where it is; elsewhere the central one.
+/// Squared slope along an axis for the distance to the zero set; `crosses` becomes true when the zero set lies between
+/// the sample and a neighbour. There the difference across the zero set keeps it where it is; elsewhere the central
+/// one.
 float SquaredSlope(float before, float here, float after, float inverse, bool& crosses)
 {
   const bool first = (before > 0) != (here > 0), second = (after > 0) != (here > 0);
@@ -130,8 +133,8 @@ bool RidgeBetween(const float* p, Index step, float sign)
 bool BesideRidge(const float* p, Index y, Index z)
 {
   const float sign = p[0] > 0 ? -1.0f : 1.0f;
-  return RidgeBetween(p, 1, sign) || RidgeBetween(p, -1, sign) || RidgeBetween(p, y, sign) || RidgeBetween(p, -y, sign) ||
-    RidgeBetween(p, z, sign) || RidgeBetween(p, -z, sign);
+  return RidgeBetween(p, 1, sign) || RidgeBetween(p, -1, sign) || RidgeBetween(p, y, sign) ||
+    RidgeBetween(p, -y, sign) || RidgeBetween(p, z, sign) || RidgeBetween(p, -z, sign);
 }
 
 Lattice GrownInVoxels(const Lattice& frame)
@@ -153,28 +156,30 @@ NarrowBand::NarrowBand(const Lattice& frame, const float* mask, double band)
   const Index nx = frame.Dims[0], ny = frame.Dims[1], nz = frame.Dims[2];
   Sides sides(static_cast<std::size_t>(this->Frame.Size()));
   std::vector<Index> inside(static_cast<std::size_t>(nz), 0);
-  ParallelFor(-Margin, nz + Margin, 0, [&](Index first, Index last) {
-    for (Index k = first; k < last; ++k)
+  ParallelFor(-Margin, nz + Margin, 0,
+    [&](Index first, Index last)
     {
-      for (Index j = -Margin; j < ny + Margin; ++j)
+      for (Index k = first; k < last; ++k)
       {
-        const float* from = mask + frame.At(0, std::clamp<Index>(j, 0, ny - 1), std::clamp<Index>(k, 0, nz - 1));
-        std::uint8_t* to = sides.data() + this->Frame.At(Margin, j + Margin, k + Margin);
-        int sum = 0;
-        for (Index i = 0; i < nx; ++i)
+        for (Index j = -Margin; j < ny + Margin; ++j)
         {
-          to[i] = from[i] > 0.5f;
-          sum += to[i];
-        }
-        std::fill_n(to - Margin, Margin, to[0]);
-        std::fill_n(to + nx, Margin, to[nx - 1]);
-        if (j >= 0 && j < ny && k >= 0 && k < nz)
-        {
-          inside[k] += sum;
+          const float* from = mask + frame.At(0, std::clamp<Index>(j, 0, ny - 1), std::clamp<Index>(k, 0, nz - 1));
+          std::uint8_t* to = sides.data() + this->Frame.At(Margin, j + Margin, k + Margin);
+          int sum = 0;
+          for (Index i = 0; i < nx; ++i)
+          {
+            to[i] = from[i] > 0.5f;
+            sum += to[i];
+          }
+          std::fill_n(to - Margin, Margin, to[0]);
+          std::fill_n(to + nx, Margin, to[nx - 1]);
+          if (j >= 0 && j < ny && k >= 0 && k < nz)
+          {
+            inside[k] += sum;
+          }
         }
       }
-    }
-  });
+    });
   this->Inside = std::accumulate(inside.begin(), inside.end(), Index(0));
   this->Phi.resize(sides.size());
   SignedDistance(this->Frame, sides, band, this->Phi.data());
@@ -189,23 +194,26 @@ void NarrowBand::FindRuns()
               nz = this->Frame.Dims[2] - 2 * Margin;
   std::vector<std::vector<Run>> slices(static_cast<std::size_t>(nz));
   std::vector<Index> activeInside(static_cast<std::size_t>(nz), 0);
-  ParallelFor(0, nz, 0, [&](Index firstSlice, Index lastSlice) {
-    for (Index at = firstSlice * ny; at < lastSlice * ny; ++at)
+  ParallelFor(0, nz, 0,
+    [&](Index firstSlice, Index lastSlice)
     {
-      const Index start = this->Frame.At(Margin, Margin + at % ny, Margin + at / ny);
-      const float* row = this->Phi.data() + start;
-      for (Index i = 0; i < nx;)
+      for (Index at = firstSlice * ny; at < lastSlice * ny; ++at)
       {
-        const Index first = i = std::find_if(row + i, row + nx, [&](float v) { return std::abs(v) < this->End; }) - row;
-        i = std::find_if(row + i, row + nx, [&](float v) { return !(std::abs(v) < this->End); }) - row;
-        if (i > first)
+        const Index start = this->Frame.At(Margin, Margin + at % ny, Margin + at / ny);
+        const float* row = this->Phi.data() + start;
+        for (Index i = 0; i < nx;)
         {
-          slices[at / ny].push_back({ start + first, 0, i - first });
-          activeInside[at / ny] += std::count_if(row + first, row + i, [](float v) { return v > 0; });
+          const Index first = i =
+            std::find_if(row + i, row + nx, [&](float v) { return std::abs(v) < this->End; }) - row;
+          i = std::find_if(row + i, row + nx, [&](float v) { return !(std::abs(v) < this->End); }) - row;
+          if (i > first)
+          {
+            slices[at / ny].push_back({ start + first, 0, i - first });
+            activeInside[at / ny] += std::count_if(row + first, row + i, [](float v) { return v > 0; });
+          }
         }
       }
-    }
-  });
+    });
   this->Deep = this->Inside - std::accumulate(activeInside.begin(), activeInside.end(), Index(0));
   Index inChunk = ChunkSize;
   for (const auto& slice : slices)
@@ -229,11 +237,11 @@ void NarrowBand::FindRuns()
 void NarrowBand::FindGhosts()
 {
   const auto& n = this->Frame.Dims;
-  const auto add = [&](int i, int j, int k) {
+  const auto add = [&](int i, int j, int k)
+  {
     const Index to = this->Frame.At(i, j, k);
-    const Index from = this->Frame.At(
-      std::clamp(i, Margin, n[0] - 1 - Margin), std::clamp(j, Margin, n[1] - 1 - Margin),
-      std::clamp(k, Margin, n[2] - 1 - Margin));
+    const Index from = this->Frame.At(std::clamp(i, Margin, n[0] - 1 - Margin),
+      std::clamp(j, Margin, n[1] - 1 - Margin), std::clamp(k, Margin, n[2] - 1 - Margin));
     if (std::abs(this->Phi[from]) < this->End)
     {
       this->Ghosts.push_back({ to, from });
@@ -263,12 +271,14 @@ void NarrowBand::FindGhosts()
 template <typename Body>
 void NarrowBand::ForRuns(Body&& body) const
 {
-  ParallelFor(0, Index(this->Chunks.size()) - 1, 0, [&](Index first, Index last) {
-    for (Index r = this->Chunks[first]; r < this->Chunks[last]; ++r)
+  ParallelFor(0, Index(this->Chunks.size()) - 1, 0,
+    [&](Index first, Index last)
     {
-      body(this->Runs[r]);
-    }
-  });
+      for (Index r = this->Chunks[first]; r < this->Chunks[last]; ++r)
+      {
+        body(this->Runs[r]);
+      }
+    });
 }
 
 template <typename Body>
@@ -290,30 +300,36 @@ void NarrowBand::Smooth(double time, Clamp&& clamp)
   const CurvatureStencil stencil(this->Frame, steps.Length);
   for (int step = 0; step < steps.Count; ++step)
   {
-    this->Advance([&](const Run& run) {
-      stencil.Apply(this->Phi.data() + run.First, this->Next.data() + run.First, run.Count,
-        [&](float before, float after, Index i) { return clamp(before, after, run.Packed + i); });
-    });
+    this->Advance(
+      [&](const Run& run)
+      {
+        stencil.Apply(this->Phi.data() + run.First, this->Next.data() + run.First, run.Count,
+          [&](float before, float after, Index i) { return clamp(before, after, run.Packed + i); });
+      });
   }
 }
 
 void NarrowBand::SmoothKeepingSides(double time)
 {
   const float least = float(0.05 * this->Frame.Spacing.minCoeff());
-  this->Smooth(time, [least](float before, float after, Index) {
-    const float inside = after > least ? after : least, outside = after < -least ? after : -least;
-    return before > 0 ? inside : outside;
-  });
+  this->Smooth(time,
+    [least](float before, float after, Index)
+    {
+      const float inside = after > least ? after : least, outside = after < -least ? after : -least;
+      return before > 0 ? inside : outside;
+    });
 }
 
 void NarrowBand::SmoothBetween(double time, const std::vector<float>& lower, const std::vector<float>& upper)
 {
   const float* const low = lower.data();
   const float* const high = upper.data();
-  this->Smooth(time, [low, high](float, float after, Index at) {
-    const float raised = after > low[at] ? after : low[at];
-    return raised < high[at] ? raised : high[at];
-  });
+  this->Smooth(time,
+    [low, high](float, float after, Index at)
+    {
+      const float raised = after > low[at] ? after : low[at];
+      return raised < high[at] ? raised : high[at];
+    });
 }
 
 void NarrowBand::FindTargets(bool ridges)
@@ -322,18 +338,20 @@ void NarrowBand::FindTargets(bool ridges)
   const float ix = float(1 / this->Frame.Spacing[0]), iy = float(1 / this->Frame.Spacing[1]),
               iz = float(1 / this->Frame.Spacing[2]);
   this->Signs.resize(static_cast<std::size_t>(this->Active));
-  this->Advance([&](const Run& run) {
-    for (Index i = 0; i < run.Count; ++i)
+  this->Advance(
+    [&](const Run& run)
     {
-      const float* p = this->Phi.data() + run.First + i;
-      bool crosses = false;
-      const float slope2 = SquaredSlope(p[-1], p[0], p[1], ix, crosses) + SquaredSlope(p[-y], p[0], p[y], iy, crosses) +
-        SquaredSlope(p[-z], p[0], p[z], iz, crosses);
-      this->Next[run.First + i] = crosses && slope2 > 0 ? p[0] / std::sqrt(slope2) : p[0];
-      const bool holds = crosses || (ridges && BesideRidge(p, y, z));
-      this->Signs[run.Packed + i] = holds ? 0.0f : p[0] > 0 ? 1.0f : -1.0f;
-    }
-  });
+      for (Index i = 0; i < run.Count; ++i)
+      {
+        const float* p = this->Phi.data() + run.First + i;
+        bool crosses = false;
+        const float slope2 = SquaredSlope(p[-1], p[0], p[1], ix, crosses) +
+          SquaredSlope(p[-y], p[0], p[y], iy, crosses) + SquaredSlope(p[-z], p[0], p[z], iz, crosses);
+        this->Next[run.First + i] = crosses && slope2 > 0 ? p[0] / std::sqrt(slope2) : p[0];
+        const bool holds = crosses || (ridges && BesideRidge(p, y, z));
+        this->Signs[run.Packed + i] = holds ? 0.0f : p[0] > 0 ? 1.0f : -1.0f;
+      }
+    });
 }
 
 void NarrowBand::Redistance(double reach, bool ridges)
@@ -345,62 +363,67 @@ void NarrowBand::Redistance(double reach, bool ridges)
   this->FindTargets(ridges);
   for (int step = 0; step < steps.Count; ++step)
   {
-    this->Advance([&](const Run& run) {
-      UpwindStep(this->Phi.data() + run.First, this->Next.data() + run.First, this->Signs.data() + run.Packed, run.Count, y,
-        z, scales, steps.Length);
-    });
+    this->Advance(
+      [&](const Run& run)
+      {
+        UpwindStep(this->Phi.data() + run.First, this->Next.data() + run.First, this->Signs.data() + run.Packed,
+          run.Count, y, z, scales, steps.Length);
+      });
   }
 }
 
 void NarrowBand::Shift(double offset)
 {
   const float by = float(offset);
-  this->Advance([&](const Run& run) {
-    for (Index i = run.First; i < run.First + run.Count; ++i)
+  this->Advance(
+    [&](const Run& run)
     {
-      this->Next[i] = this->Phi[i] + by;
-    }
-  });
+      for (Index i = run.First; i < run.First + run.Count; ++i)
+      {
+        this->Next[i] = this->Phi[i] + by;
+      }
+    });
 }
 
 std::vector<float> NarrowBand::Pack() const
 {
   std::vector<float> packed(static_cast<std::size_t>(this->Active));
-  this->ForRuns([&](const Run& run) {
-    std::copy_n(this->Phi.data() + run.First, run.Count, packed.data() + run.Packed);
-  });
+  this->ForRuns(
+    [&](const Run& run) { std::copy_n(this->Phi.data() + run.First, run.Count, packed.data() + run.Packed); });
   return packed;
 }
 
 void NarrowBand::Unpack(const std::vector<float>& packed)
 {
-  this->Advance([&](const Run& run) {
-    std::copy_n(packed.data() + run.Packed, run.Count, this->Next.data() + run.First);
-  });
+  this->Advance(
+    [&](const Run& run) { std::copy_n(packed.data() + run.Packed, run.Count, this->Next.data() + run.First); });
 }
 
 double NarrowBand::Volume() const
 {
   const Index y = this->Frame.Dims[0], z = y * this->Frame.Dims[1];
   std::vector<double> chunks(this->Chunks.size(), 0.0);
-  const auto partInside = [&](const float* p) {
+  const auto partInside = [&](const float* p)
+  {
     const bool inside = p[0] > 0;
-    const bool beside = (p[-1] > 0) != inside || (p[1] > 0) != inside || (p[-y] > 0) != inside || (p[y] > 0) != inside ||
-      (p[-z] > 0) != inside || (p[z] > 0) != inside;
+    const bool beside = (p[-1] > 0) != inside || (p[1] > 0) != inside || (p[-y] > 0) != inside ||
+      (p[y] > 0) != inside || (p[-z] > 0) != inside || (p[z] > 0) != inside;
     return beside ? std::clamp(0.5 + double(p[0]), 0.0, 1.0) : double(inside);
   };
-  ParallelFor(0, Index(this->Chunks.size()) - 1, 0, [&](Index first, Index last) {
-    for (Index c = first; c < last; ++c)
+  ParallelFor(0, Index(this->Chunks.size()) - 1, 0,
+    [&](Index first, Index last)
     {
-      for (Index r = this->Chunks[c]; r < this->Chunks[c + 1]; ++r)
+      for (Index c = first; c < last; ++c)
       {
-        for (Index i = 0; i < this->Runs[r].Count; ++i)
+        for (Index r = this->Chunks[c]; r < this->Chunks[c + 1]; ++r)
         {
-          chunks[c] += partInside(this->Phi.data() + this->Runs[r].First + i);
+          for (Index i = 0; i < this->Runs[r].Count; ++i)
+          {
+            chunks[c] += partInside(this->Phi.data() + this->Runs[r].First + i);
+          }
         }
       }
-    }
-  });
+    });
   return double(this->Deep) + std::accumulate(chunks.begin(), chunks.end(), 0.0);
 }
 
@@ -410,18 +433,20 @@ std::vector<float> NarrowBand::Distance(double unit, double limit) const
               nz = this->Frame.Dims[2] - 2 * Margin;
   std::vector<float> distance(static_cast<std::size_t>(nx * ny * nz));
   const float scale = float(unit), end = float(limit);
-  ParallelFor(0, ny * nz, 0, [&](Index first, Index last) {
-    for (Index row = first; row < last; ++row)
+  ParallelFor(0, ny * nz, 0,
+    [&](Index first, Index last)
     {
-      const float* from = this->Phi.data() + this->Frame.At(Margin, Margin + row % ny, Margin + row / ny);
-      float* to = distance.data() + row * nx;
-      for (Index i = 0; i < nx; ++i)
+      for (Index row = first; row < last; ++row)
       {
-        const float value = from[i] * scale;
-        to[i] = value > end ? end : value < -end ? -end : value;
+        const float* from = this->Phi.data() + this->Frame.At(Margin, Margin + row % ny, Margin + row / ny);
+        float* to = distance.data() + row * nx;
+        for (Index i = 0; i < nx; ++i)
+        {
+          const float value = from[i] * scale;
+          to[i] = value > end ? end : value < -end ? -end : value;
+        }
       }
-    }
-  });
+    });
   return distance;
 }
 }

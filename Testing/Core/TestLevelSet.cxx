@@ -70,7 +70,8 @@ SurfaceErrors ErrorsOf(const Ball& ball, const std::vector<float>& d)
 {
   const Lattice& frame = ball.Frame;
   const Index step[3] = { 1, frame.Dims[0], Index(frame.Dims[0]) * frame.Dims[1] };
-  const auto gradient = [&](Index at) -> Vec3 {
+  const auto gradient = [&](Index at) -> Vec3
+  {
     return Vec3(d[at + step[0]] - d[at - step[0]], d[at + step[1]] - d[at - step[1]], d[at + step[2]] - d[at - step[2]])
       .cwiseQuotient(2 * frame.Spacing);
   };
@@ -130,16 +131,18 @@ std::vector<float> RandomMask(const Lattice& lattice, unsigned int seed)
     centers.push_back(center);
     radii.push_back((1 + 4 * unit(random)) * lattice.VoxelSize());
   }
-  return MakeMask(lattice, [&](const Vec3& x) {
-    for (std::size_t n = 0; n < centers.size(); ++n)
+  return MakeMask(lattice,
+    [&](const Vec3& x)
     {
-      if ((x - centers[n]).norm() < radii[n])
+      for (std::size_t n = 0; n < centers.size(); ++n)
       {
-        return true;
+        if ((x - centers[n]).norm() < radii[n])
+        {
+          return true;
+        }
       }
-    }
-    return false;
-  });
+      return false;
+    });
 }
 
 TEST(SignedDistance, IsExactForCubicVoxels)
@@ -180,9 +183,8 @@ TEST(SignedDistance, OpeningAndClosingByABall)
 {
   const Lattice lattice = MakeLattice(40, 30, 30);
   // A block, a bar one sample thick on it, and a slit one sample wide in it.
-  const auto block = [](const Vec3& x) {
-    return x[0] >= 8 && x[0] <= 20 && x[1] >= 8 && x[1] <= 20 && x[2] >= 8 && x[2] <= 20;
-  };
+  const auto block = [](const Vec3& x)
+  { return x[0] >= 8 && x[0] <= 20 && x[1] >= 8 && x[1] <= 20 && x[2] >= 8 && x[2] <= 20; };
   const auto bar = [](const Vec3& x) { return x[0] > 20 && x[0] <= 32 && x[1] == 14 && x[2] == 14; };
   const auto slit = [](const Vec3& x) { return x[0] == 12 && x[1] >= 12; };
   const auto mask = MakeMask(lattice, [&](const Vec3& x) { return (block(x) && !slit(x)) || bar(x); });
@@ -297,10 +299,11 @@ TEST(LevelSet, TighteningRoundsACornerByTheRadius)
 TEST(LevelSet, PlatesThinnerThanTheBallVanish)
 {
   const Lattice lattice = MakeLattice(50, 50, 30);
-  const auto plate = [&](int thickness) {
-    return MakeMask(lattice, [thickness](const Vec3& x) {
-      return x[0] >= 8 && x[0] <= 41 && x[1] >= 8 && x[1] <= 41 && x[2] >= 12 && x[2] < 12 + thickness;
-    });
+  const auto plate = [&](int thickness)
+  {
+    return MakeMask(lattice,
+      [thickness](const Vec3& x)
+      { return x[0] >= 8 && x[0] <= 41 && x[1] >= 8 && x[1] <= 41 && x[2] >= 12 && x[2] < 12 + thickness; });
   };
   const auto thick = plate(4), three = plate(3), one = plate(1);
   const auto kept = Tighten(lattice, thick.data(), WithRadius(1), Monitor());
@@ -319,9 +322,8 @@ TEST(LevelSet, AnErosionSeesSheetsBetweenSamples)
 {
   // Two samples thick: the medial sheet lies between them, half a voxel deeper than either.
   const Lattice lattice = MakeLattice(50, 50, 30);
-  const auto plate = MakeMask(lattice, [](const Vec3& x) {
-    return x[0] >= 8 && x[0] <= 41 && x[1] >= 8 && x[1] <= 41 && x[2] >= 12 && x[2] < 14;
-  });
+  const auto plate = MakeMask(lattice,
+    [](const Vec3& x) { return x[0] >= 8 && x[0] <= 41 && x[1] >= 8 && x[1] <= 41 && x[2] >= 12 && x[2] < 14; });
   const auto result = Tighten(lattice, plate.data(), WithRadius(0.8), Monitor());
   EXPECT_GT(result.TightVolume, 0.65 * result.MaskVolume);
 }
@@ -333,7 +335,8 @@ TEST(LevelSet, TheMirrorImageGivesTheMirrorImage)
   const auto plain = Tighten(lattice, mask.data(), TightenOptions(), Monitor());
   for (int axis = 0; axis < 3; ++axis)
   {
-    const auto mirror = [&](Index at) {
+    const auto mirror = [&](Index at)
+    {
       auto c = lattice.Coordinates(at);
       c[axis] = lattice.Dims[axis] - 1 - c[axis];
       return lattice.At(c[0], c[1], c[2]);
@@ -441,10 +444,12 @@ TEST(LevelSet, OptionsAndAbort)
   options.TightenIterations = -3;
   EXPECT_THROW(Tighten(lattice, mask.data(), options, Monitor()), std::invalid_argument);
   std::string last;
-  const Monitor stop([&last](double fraction, const std::string& text) {
-    last = text;
-    return fraction > 0.3;
-  });
+  const Monitor stop(
+    [&last](double fraction, const std::string& text)
+    {
+      last = text;
+      return fraction > 0.3;
+    });
   EXPECT_THROW(Tighten(lattice, mask.data(), TightenOptions(), stop), Aborted);
   EXPECT_EQ(last, "Closing");
 }
