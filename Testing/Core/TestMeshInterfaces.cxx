@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "AnalyticFields.h"
+#include "LocalRepair.h"
+#include "MeshInterfaces.h"
+#include "ParticleSystem.h"
+#include "TetraLabeling.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <map>
+
+using namespace LabelMesh;
+using namespace LabelMesh::Testing;
+
+namespace
+{
+const Lattice Frame = MakeLattice(48, 48, 48);
+const Vec3 Centre(24.2, 23.9, 24.1);
+
+/// Four Voronoi cells in a ball: six interfaces between them, four with the outside, one 0-cell inside and four outside.
+SampledFields FourCellsInABall()
+{
+  std::vector<Field> fields{ [](const Vec3& x) { return (x - Centre).norm() - 36.0; } };
+  for (const Vec3& offset : { Vec3(9, 9, 9), Vec3(9, -9, -9), Vec3(-9, 9, -9), Vec3(-9, -9, 9) })
+  {
+    fields.push_back(Site(Centre + offset));
+  }
+  return SampledFields(Frame, fields);
+}
+
+std::map<MaterialId, double> Volumes(const InterfaceMesh& mesh)
+{
+  std::map<MaterialId, double> volumes;
+  for (const InterfaceTriangle& t : mesh.Triangles)
+  {
+    const double signedVolume = mesh.Vertices[t.Vertices[0]].Position.dot(
+                                  mesh.Vertices[t.Vertices[1]].Position.cross(mesh.Vertices[t.Vertices[2]].Position)) /
+      6.0;
+    volumes[t.Materials[0]] += signedVolume;
+    volumes[t.Materials[1]] -= signedVolume;
+  }
+  return volumes;
+}
+
+MeshResult Mesh(const SampledFields& fields, float h, const MeshOptions& options = MeshOptions())
+{
+  const SampleResult samples = SampleCells(*fields, Grid<float>(Frame, h), SampleOptions(), Monitor());
+  return MeshInterfaces(*fields, samples.Particles, options, Monitor());
+}
+}
+
+TEST(Delaunay, OfARegularGridIsDelaunay)
+{
+  std::vector<Vec3> points;
+  for (int n = 0; n < 125; ++n)
+  {
+    points.emplace_back(n % 5 + 0.01 * std::sin(12.9 * n), n / 5 % 5 + 0.01 * std::sin(78.2 * n), n / 25 + 0.01 * std::sin(3.7 * n));
+  }
+  const Tetrahedralization t = DelaunayTetrahedra(points);
+  ASSERT_GT(t.Size(), 300);
+  for (Index n = 0; n < t.Size(); ++n)
+  {
+    const auto& c = t.Corners[n];
+    const Vec3 centre = Circumcentre(points[c[0]], points[c[1]], points[c[2]], points[c[3]]);
+    const double radius = (points[c[0]] - centre).norm();
+    for (const Vec3& p : points)
+    {
+      EXPECT_GT((p - centre).norm(), radius * (1 - 1e-9));
+    }
+    for (int j = 0; j < 4; ++j)
+    {
+      const auto neighbor = t.Neighbors[n][j];
+      if (neighbor >= 0)
+      {
+        // All corners but j are the neighbour's too.
+        for (int k = 0; k < 4; ++k)
+        {
+          const auto& other = t.Corners[neighbor];
+          EXPECT_EQ(std::find(other.begin(), other.end(), c[k]) != other.end(), k != j);
+        }
+      }
+    }
+  }
+}
+
+TEST(Delaunay, OfTooFewOrFlatPointsIsEmpty)
+{
+  EXPECT_EQ(DelaunayTetrahedra({}).Size(), 0);
+  EXPECT_EQ(DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0) }).Size(), 0);
+  EXPECT_EQ(DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(3, 1, 0) }).Size(), 0);
+  EXPECT_EQ(DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 1) }).Size(), 1);
+}
+
+TEST(TetraLabeling, CircumcentreIsEquidistant)
+{
+  const Vec3 a(0.1, 0.2, 0.3), b(2, 0, 1), c(0, 3, 0.5), d(1, 1, 4);
+  const Vec3 x = Circumcentre(a, b, c, d);
+  for (const Vec3& p : { b, c, d })
+  {
+    EXPECT_NEAR((p - x).norm(), (a - x).norm(), 1e-12);
+  }
+}
+
+TEST(TetraLabeling, AFacePairMustBeInAllVertexSets)
+{
+  std::vector<Particle> particles(3);
+  for (Particle& p : particles)
+  {
+    p.Materials.Insert(1);
+    p.Materials.Insert(2);
+  }
+  InterfaceTriangle face;
+  face.Vertices = { 0, 1, 2 };
+  face.Materials = { 2, 1 };
+  EXPECT_FALSE(IsWrong(particles, face));
+  face.Materials = { 2, 3 };
+  EXPECT_TRUE(IsWrong(particles, face));
+}
+
+TEST(TetraLabeling, FindsTheEdgeThatTwoSheetsShare)
+{
+  // Two tetrahedron surfaces of material 1 that share one edge: four faces of material 1 meet there.
+  const auto face = [](Index a, Index b, Index c)
+  {
+    InterfaceTriangle t;
+    t.Vertices = { a, b, c };
+    t.Materials = { 1, 0 };
+    return t;
+  };
+  std::vector<InterfaceTriangle> faces{ face(0, 1, 2), face(0, 2, 3), face(0, 3, 1), face(1, 3, 2) };
+  EXPECT_TRUE(NonManifoldEdges(faces).empty());
+  for (const auto& t : { face(0, 1, 4), face(0, 4, 5), face(0, 5, 1), face(1, 5, 4) })
+  {
+    faces.push_back(t);
+  }
+  EXPECT_EQ(NonManifoldEdges(faces), (std::vector<Edge>{ { 0, 1 } }));
+}
+
+TEST(MeshInterfaces, ABallIsAClosedSphereOfItsVolume)
+{
+  const SampledFields fields(Frame, { Not(Ball(Centre, 15)), Ball(Centre, 15) });
+  for (const float h : { 3.0f, 1.5f })
+  {
+    const MeshResult result = Mesh(fields, h);
+    EXPECT_EQ(result.WrongFaces + result.NonManifoldEdges + result.BadTriangles, 0);
+    EXPECT_EQ(Index(result.Mesh.Triangles.size()), 2 * Index(result.Mesh.Vertices.size()) - 4); // genus 0
+    const double volume = 4.0 / 3.0 * M_PI * 15 * 15 * 15;
+    // A triangle of edge h cuts h^2 / (8 R) or so off: second order.
+    EXPECT_NEAR(Volumes(result.Mesh)[1], volume, volume * 0.3 * h * h / (15 * 15) + 0.002 * volume);
+    for (const InterfaceTriangle& t : result.Mesh.Triangles)
+    {
+      const auto& v = result.Mesh.Vertices;
+      const Vec3 &a = v[t.Vertices[0]].Position, &b = v[t.Vertices[1]].Position, &c = v[t.Vertices[2]].Position;
+      const double outwards = (b - a).cross(c - a).dot(a - Centre);
+      EXPECT_EQ(outwards > 0, t.Materials[0] == 1) << "the normal points from the first material to the second";
+    }
+  }
+}
+
+TEST(MeshInterfaces, JunctionsOfFourMaterialsConform)
+{
+  const SampledFields fields = FourCellsInABall();
+  const MeshResult result = Mesh(fields, 2.0f);
+  EXPECT_EQ(result.WrongFaces, 0);
+  EXPECT_EQ(result.NonManifoldEdges, 0);
+  EXPECT_EQ(result.EmptySets, 0);
+  EXPECT_GT(result.WorstRatio, 0.45);
+  Index zeroCells = 0;
+  for (const Particle& p : result.Mesh.Vertices)
+  {
+    zeroCells += p.CellDimension == 0;
+  }
+  EXPECT_EQ(zeroCells, 5);
+  // The four are alike, and all volumes add up to none.
+  auto volumes = Volumes(result.Mesh);
+  double sum = 0;
+  for (const auto& [m, volume] : volumes)
+  {
+    sum += volume;
+    if (m > 0)
+    {
+      EXPECT_NEAR(volume, -volumes[0] / 4, -volumes[0] * 0.01);
+    }
+  }
+  EXPECT_NEAR(sum, 0.0, 1e-6);
+}
+
+TEST(LocalRepair, MendsASliverAndNothingElse)
+{
+  const SampledFields fields(Frame, { Not(Ball(Centre, 15)), Ball(Centre, 15) });
+  SampleResult samples = SampleCells(*fields, Grid<float>(Frame, 2.0f), SampleOptions(), Monitor());
+  // A particle too many, close to another: its triangles are slivers.
+  Particle extra = samples.Particles[100];
+  extra.Position = Centre + 15.0 * (extra.Position + Vec3(0.06, 0.04, -0.02) - Centre).normalized();
+  samples.Particles.push_back(extra);
+  MeshOptions without;
+  without.RepairRounds = 0;
+  const MeshResult broken = MeshInterfaces(*fields, samples.Particles, without, Monitor());
+  EXPECT_GT(broken.BadTriangles, 0);
+  const MeshResult mended = MeshInterfaces(*fields, samples.Particles, MeshOptions(), Monitor());
+  EXPECT_EQ(mended.BadTriangles, 0);
+  EXPECT_EQ(mended.Mesh.Vertices.size(), samples.Particles.size() - 1);
+  Index moved = 0;
+  for (const Particle& p : mended.Mesh.Vertices)
+  {
+    bool same = false;
+    for (const Particle& q : samples.Particles)
+    {
+      same = same || p.Position == q.Position;
+    }
+    moved += !same;
+  }
+  EXPECT_LT(moved, 40);
+}
+
+TEST(MeshInterfaces, NoParticlesGiveNoMesh)
+{
+  const SampledFields fields(Frame, { [](const Vec3&) { return 1.0; }, [](const Vec3&) { return -1.0; } });
+  const MeshResult result = MeshInterfaces(*fields, {}, MeshOptions(), Monitor());
+  EXPECT_TRUE(result.Mesh.Triangles.empty());
+  EXPECT_TRUE(result.Mesh.Vertices.empty());
+}
