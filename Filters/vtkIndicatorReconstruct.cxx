@@ -147,15 +147,17 @@ void AttachFunctions(vtkImageData* image, const IndicatorSet& indicators, const 
     const std::string name = Names::InsideOutside + std::to_string(indicators.LabelOf(material));
     monitor.Step(double(n) / double(inspected.size()), "Evaluating " + name);
     std::vector<float> values(lattice.Size());
-    ParallelFor(0, Index(lattice.Dims[1]) * lattice.Dims[2], 16, [&](Index first, Index last) {
-      for (Index at = first * lattice.Dims[0]; at < last * lattice.Dims[0]; ++at)
+    ParallelFor(0, Index(lattice.Dims[1]) * lattice.Dims[2], 16,
+      [&](Index first, Index last)
       {
-        const auto c = lattice.Coordinates(at);
-        const double value = InsideOutside(indicators, material, lattice.Position(c[0], c[1], c[2]), epsilon);
-        values[at] = float(value);
-        sum[at] += float(value * value);
-      }
-    });
+        for (Index at = first * lattice.Dims[0]; at < last * lattice.Dims[0]; ++at)
+        {
+          const auto c = lattice.Coordinates(at);
+          const double value = InsideOutside(indicators, material, lattice.Position(c[0], c[1], c[2]), epsilon);
+          values[at] = float(value);
+          sum[at] += float(value * value);
+        }
+      });
     AddImageArray(image, name.c_str(), values);
   }
   if (inspected.size() > 1)
@@ -236,35 +238,37 @@ int vtkIndicatorReconstruct::RequestData(
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
   vtkImageData* image = vtkImageData::GetData(outputVector, 1);
-  return RunStage(this, [&](const Monitor& monitor) {
-    const CollectionHeader header = ReadHeader(input);
-    const std::vector<MaterialId> inspected =
-      header.Materials.empty() ? std::vector<MaterialId>() : FindMaterials(this->InspectedLabels, header);
-    Reconstruct(input, header, this->Perturbation, output, monitor.Part(0.0, 0.4));
-    if (header.Materials.empty())
+  return RunStage(this,
+    [&](const Monitor& monitor)
     {
-      AttachLabels(image, RebuiltLabels());
-      return;
-    }
-    const GridFrame frame = ImageFrame(header.Source, this->ImageResolution);
-    const Lattice lattice = header.Source.LatticeOf(frame);
-    SetFrame(image, frame);
-    const std::vector<IndicatorBlock> blocks = BlocksOf(output, header);
-    const bool fromSamples = CanRebuildFromSamples(blocks, lattice);
-    if (fromSamples)
-    {
-      AttachLabels(image, RebuildFromSamples(blocks, lattice, monitor.Part(0.4, 0.6)));
-    }
-    if (!fromSamples || !inspected.empty())
-    {
-      const IndicatorSet indicators = MakeIndicatorSet(output, header);
-      if (!fromSamples)
+      const CollectionHeader header = ReadHeader(input);
+      const std::vector<MaterialId> inspected =
+        header.Materials.empty() ? std::vector<MaterialId>() : FindMaterials(this->InspectedLabels, header);
+      Reconstruct(input, header, this->Perturbation, output, monitor.Part(0.0, 0.4));
+      if (header.Materials.empty())
       {
-        AttachLabels(image, RebuildLabels(indicators, lattice, monitor.Part(0.4, 0.6)));
+        AttachLabels(image, RebuiltLabels());
+        return;
       }
-      AttachFunctions(image, indicators, lattice, inspected, this->SmoothMaximumEpsilon, monitor.Part(0.6, 1.0));
-    }
-  });
+      const GridFrame frame = ImageFrame(header.Source, this->ImageResolution);
+      const Lattice lattice = header.Source.LatticeOf(frame);
+      SetFrame(image, frame);
+      const std::vector<IndicatorBlock> blocks = BlocksOf(output, header);
+      const bool fromSamples = CanRebuildFromSamples(blocks, lattice);
+      if (fromSamples)
+      {
+        AttachLabels(image, RebuildFromSamples(blocks, lattice, monitor.Part(0.4, 0.6)));
+      }
+      if (!fromSamples || !inspected.empty())
+      {
+        const IndicatorSet indicators = MakeIndicatorSet(output, header);
+        if (!fromSamples)
+        {
+          AttachLabels(image, RebuildLabels(indicators, lattice, monitor.Part(0.4, 0.6)));
+        }
+        AttachFunctions(image, indicators, lattice, inspected, this->SmoothMaximumEpsilon, monitor.Part(0.6, 1.0));
+      }
+    });
 }
 
 void vtkIndicatorReconstruct::PrintSelf(ostream& os, vtkIndent indent)

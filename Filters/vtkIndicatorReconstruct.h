@@ -3,29 +3,30 @@
  * @class   vtkIndicatorReconstruct
  * @brief   From tightened distances to the materials' indicator functions; the label image rebuilt from them.
  *
- * The indicator function f_i of a material (paper, sections 3 and 5.1) is the smooth function that the interpolating 4^3
- * Catmull-Rom spline makes of the samples of its distance. This filter makes the samples; the stages after it interpolate.
+ * The indicator function f_i of a material (paper, sections 3 and 5.1) is the smooth function that the interpolating
+ * 4^3 Catmull-Rom spline makes of the samples of its distance. This filter makes the samples; the stages after it
+ * interpolate.
  *
  * Input (vtkPartitionedDataSetCollection): tightened distances, from vtkTighten; block array "TightDistance".
  *
- * Output port 0 (vtkPartitionedDataSetCollection): the same blocks on the same grids, with names, field data "Label" and
- * "Color"; point data
+ * Output port 0 (vtkPartitionedDataSetCollection): the same blocks on the same grids, with names, field data "Label"
+ * and "Color"; point data
  *  - "Indicator" (float32): > 0 inside, world length
  * The collection's field data are passed on; "IndicatorKernel" (string) is "CatmullRom".
  *
  * Output port 1 (vtkImageData): on the source grid, or with ImageResolution samples per voxel along each axis, over the
  * same space; point data
  *  - "Label" (int64): of the material with the largest indicator; the active scalars
- *  - "Margin" (float32): the largest indicator minus the second, world length: how far from an interface. Farther from it
- *    than other materials' indicators are known: twice the largest.
- *  - "InsideOutside_<label>" (float32), for each inspected label: f_i - max over j != i of f_j (equation 1), world length,
- *    > 0 where the material is present; the maximum is the smooth one of equations 10 and 11
- *  - "CellIndicator" (float32), for two to four inspected labels: the sum of their squares (equations 2 to 4), world length
- *    squared, zero on the 2-, 1- or 0-cell where they meet
+ *  - "Margin" (float32): the largest indicator minus the second, world length: how far from an interface. Farther
+ *    from it than other materials' indicators are known: twice the largest.
+ *  - "InsideOutside_<label>" (float32), for each inspected label: f_i - max over j != i of f_j (equation 1), world
+ *    length, > 0 where the material is present; the maximum is the smooth one of equations 10 and 11
+ *  - "CellIndicator" (float32), for two to four inspected labels: the sum of their squares (equations 2 to 4), world
+ *    length squared, zero on the 2-, 1- or 0-cell where they meet
  *
  * Perturbation: exactly symmetric volumes (four boxes along a line, eight around a point) have junctions of more than
- * four materials, which the method's general position excludes. A constant of at most Perturbation voxels is added to each
- * material's distance, from a golden-ratio sequence of its position among the labels, so that they come apart.
+ * four materials, which the method's general position excludes. A constant of at most Perturbation voxels is added to
+ * each material's distance, from a golden-ratio sequence of its position among the labels, so that they come apart.
  *
  * The smooth maximum is displaced where three or more materials meet (Core/SmoothMaximum.h); it serves inspection only.
  *
@@ -66,7 +67,10 @@ public:
   void AddInspectedLabel(vtkIdType label);
   void ClearInspectedLabels();
   vtkIdType GetNumberOfInspectedLabels() const { return static_cast<vtkIdType>(this->InspectedLabels.size()); }
-  vtkIdType GetInspectedLabel(vtkIdType index) const { return this->InspectedLabels.at(static_cast<std::size_t>(index)); }
+  vtkIdType GetInspectedLabel(vtkIdType index) const
+  {
+    return this->InspectedLabels.at(static_cast<std::size_t>(index));
+  }
   ///@}
 
   ///@{

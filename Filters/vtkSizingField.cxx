@@ -64,22 +64,24 @@ Grid<float> SampleBound(vtkDataArray* array, const GridFrame& frame, const GridF
   Grid<float> sampled(working.Samples(), NoBound);
   const auto& low = working.Extent();
   const auto& extent = frame.Extent();
-  ParallelFor(0, sampled.Frame.Dims[2], 1, [&](Index first, Index last) {
-    for (Index at = sampled.Frame.At(0, 0, first); at < sampled.Frame.At(0, 0, last); ++at)
+  ParallelFor(0, sampled.Frame.Dims[2], 1,
+    [&](Index first, Index last)
     {
-      const auto c = sampled.Frame.Coordinates(at);
-      const Vec3 index = frame.ToIndex(working.ToWorld(c[0] + low[0], c[1] + low[2], c[2] + low[4]));
-      bool inside = true;
-      for (int a = 0; a < 3; ++a)
+      for (Index at = sampled.Frame.At(0, 0, first); at < sampled.Frame.At(0, 0, last); ++at)
       {
-        inside = inside && index[a] >= extent[2 * a] - 0.5 && index[a] <= extent[2 * a + 1] + 0.5;
+        const auto c = sampled.Frame.Coordinates(at);
+        const Vec3 index = frame.ToIndex(working.ToWorld(c[0] + low[0], c[1] + low[2], c[2] + low[4]));
+        bool inside = true;
+        for (int a = 0; a < 3; ++a)
+        {
+          inside = inside && index[a] >= extent[2 * a] - 0.5 && index[a] <= extent[2 * a + 1] + 0.5;
+        }
+        if (inside)
+        {
+          sampled.Values[at] = float(bound.Trilinear(index));
+        }
       }
-      if (inside)
-      {
-        sampled.Values[at] = float(bound.Trilinear(index));
-      }
-    }
-  });
+    });
   return sampled;
 }
 
@@ -176,48 +178,50 @@ int vtkSizingField::RequestUpdateExtent(vtkInformation*, vtkInformationVector** 
   return 1;
 }
 
-int vtkSizingField::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkSizingField::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkImageData* userImage = vtkImageData::GetData(inputVector[1], 0);
   vtkImageData* output = vtkImageData::GetData(outputVector, 0);
-  return RunStage(this, [&](const Monitor& monitor) {
-    const CollectionHeader header = ReadHeader(input);
-    this->PredictedParticles = 0;
-    if (header.Materials.empty())
+  return RunStage(this,
+    [&](const Monitor& monitor)
     {
-      Attach(output, SizingResult());
-      return;
-    }
-    const SizingOptions options = OptionsOf(this, header);
-    const std::size_t unknown = this->MaterialMaximumLengths.size() -
-      std::count_if(options.MaterialMaximumLength.begin(), options.MaterialMaximumLength.end(),
-        [](double length) { return length != 0; });
-    if (unknown > 0)
-    {
-      vtkWarningMacro("SetMaterialMaximumLength names " << unknown << " labels that are not among the materials.");
-    }
-    monitor.Step(0.0, "Reading the indicators");
-    const IndicatorSet indicators = MakeIndicatorSet(input, header);
-    Grid<float> user;
-    if (userImage && userImage->GetNumberOfPoints() > 0)
-    {
-      user = SampleBound(this->GetInputArrayToProcess(0, inputVector), FrameOf(userImage), header.WorkingFrame());
-    }
-    const SizingResult result =
-      ComputeSizing(indicators, options, user.Values.empty() ? nullptr : &user, monitor.Part(0.1, 1.0));
-    this->PredictedParticles = static_cast<vtkIdType>(std::llround(result.PredictedParticles));
-    if (this->TargetTriangles > 0 && result.PredictedParticles > 0 &&
-      std::abs(2 * result.PredictedParticles / double(this->TargetTriangles) - 1) > TargetWarning)
-    {
-      vtkWarningMacro("The target of " << this->TargetTriangles << " triangles cannot be reached: about "
-        << 2 * this->PredictedParticles << " are predicted. Loosen MinimumLength, the maxima, the image on port 1 or the "
-        << "Gradation.");
-    }
-    SetFrame(output, header.WorkingFrame());
-    Attach(output, result);
-  });
+      const CollectionHeader header = ReadHeader(input);
+      this->PredictedParticles = 0;
+      if (header.Materials.empty())
+      {
+        Attach(output, SizingResult());
+        return;
+      }
+      const SizingOptions options = OptionsOf(this, header);
+      const std::size_t unknown = this->MaterialMaximumLengths.size() -
+        std::count_if(options.MaterialMaximumLength.begin(), options.MaterialMaximumLength.end(),
+          [](double length) { return length != 0; });
+      if (unknown > 0)
+      {
+        vtkWarningMacro("SetMaterialMaximumLength names " << unknown << " labels that are not among the materials.");
+      }
+      monitor.Step(0.0, "Reading the indicators");
+      const IndicatorSet indicators = MakeIndicatorSet(input, header);
+      Grid<float> user;
+      if (userImage && userImage->GetNumberOfPoints() > 0)
+      {
+        user = SampleBound(this->GetInputArrayToProcess(0, inputVector), FrameOf(userImage), header.WorkingFrame());
+      }
+      const SizingResult result =
+        ComputeSizing(indicators, options, user.Values.empty() ? nullptr : &user, monitor.Part(0.1, 1.0));
+      this->PredictedParticles = static_cast<vtkIdType>(std::llround(result.PredictedParticles));
+      if (this->TargetTriangles > 0 && result.PredictedParticles > 0 &&
+        std::abs(2 * result.PredictedParticles / double(this->TargetTriangles) - 1) > TargetWarning)
+      {
+        vtkWarningMacro("The target of " << this->TargetTriangles << " triangles cannot be reached: about "
+                                         << 2 *
+            this->PredictedParticles << " are predicted. Loosen MinimumLength, the maxima, the image on port 1 or the "
+                                         << "Gradation.");
+      }
+      SetFrame(output, header.WorkingFrame());
+      Attach(output, result);
+    });
 }
 
 void vtkSizingField::PrintSelf(ostream& os, vtkIndent indent)

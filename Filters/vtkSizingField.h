@@ -3,31 +3,35 @@
  * @class   vtkSizingField
  * @brief   How long the edges of the mesh shall be, everywhere: the sizing field (paper, section 5.2).
  *
- * Input port 0 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array "Indicator".
+ * Input port 0 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array
+ * "Indicator".
  *
  * Input port 1 (vtkImageData, optional): a further upper bound, a point array of lengths in world units chosen with
- * SetInputArrayToProcess(0, 1, 0, ...), by default the active point scalars. Any extent, spacing and direction matrix; it
- * is read by linear interpolation. Where it does not reach, and where it is not a positive number, there is no bound.
+ * SetInputArrayToProcess(0, 1, 0, ...), by default the active point scalars. Any extent, spacing and direction
+ * matrix; it is read by linear interpolation. Where it does not reach, and where it is not a positive number, there
+ * is no bound.
  *
- * Output (vtkImageData): on the working grid, which is the source grid and its padding, with the source's direction matrix;
- * point data
+ * Output (vtkImageData): on the working grid, which is the source grid and its padding, with the source's direction
+ * matrix; point data
  *  - "TargetLength" (float32): the edge length h, world length; the active scalars
- *  - "FeatureSize" (float32): the distance to the medial axis at interface voxels, spread to the voxels nearest to each,
- *    world length
+ *  - "FeatureSize" (float32): the distance to the medial axis at interface voxels, spread to the voxels nearest to
+ *    each, world length
  *
  * Method:
  *  - the local feature size of all interfaces by the distance to their medial axis, the minimum over the materials;
- *  - near the interfaces h0 = Epsilon * max(feature size, FeatureSizeFloor), at most the radius of curvature (though not
- *    below 0.6 Epsilon * FeatureSizeFloor): at the sharp edges where three materials meet the feature size goes to zero,
- *    and particles are put on those edges explicitly, so the floor may stand in for it;
+ *  - near the interfaces h0 = Epsilon * max(feature size, FeatureSizeFloor), at most the radius of curvature (though
+ *    not below 0.6 Epsilon * FeatureSizeFloor): at the sharp edges where three materials meet the feature size goes
+ *    to zero, and particles are put on those edges explicitly, so the floor may stand in for it;
  *  - bounds: the maxima, port 1, and the minimum, which wins over all others;
  *  - the gradient is limited: h(x) = min over y of h0(y) + Gradation |x - y|.
- * With TargetTriangles h0 is scaled by one factor, before the bounds, until the predicted number of triangles is near it.
+ * With TargetTriangles h0 is scaled by one factor, before the bounds, until the predicted number of triangles is near
+ * it.
  *
  * Limits: parts thinner than a voxel that no sample hits have no feature size.
  *
  * Errors: blocks without "Indicator", options out of range, an input on port 1 without a point array of lengths.
- * Warnings: a material of SetMaterialMaximumLength that does not exist; a TargetTriangles that the bounds keep out of reach.
+ * Warnings: a material of SetMaterialMaximumLength that does not exist; a TargetTriangles that the bounds keep out of
+ * reach.
  * An empty collection gives an empty image with empty arrays.
  */
 #ifndef vtkSizingField_h

@@ -14,27 +14,29 @@ namespace
 using Vec3f = Eigen::Vector3f;
 
 constexpr double Degree = 0.017453292519943295;
-constexpr double BaseAngle = 60 * Degree;      // between the directions at junctions of 120 degrees
-constexpr double LargestAngle = 149 * Degree;  // never more is asked for
+constexpr double BaseAngle = 60 * Degree;     // between the directions at junctions of 120 degrees
+constexpr double LargestAngle = 149 * Degree; // never more is asked for
 constexpr double CosineBase = 0.5;
 constexpr double CosineLargest = -0.8571673;
-constexpr double SampleOffset = 0.6;           // voxels: how far beside the true nearest point a sample may stand
-constexpr double LeastSeparation = 0.9;        // of the distance: nearest points closer together are one feature
-constexpr double LargestProjection = 1.0;      // voxels: farther than this the projection has left its crossing
-constexpr double NearVoxels = 4.0;             // voxels: how far the nearest sample is chosen exactly
-constexpr int MostMedialWalk = 64;             // steps along the interface to the nearest sample
+constexpr double SampleOffset = 0.6;      // voxels: how far beside the true nearest point a sample may stand
+constexpr double LeastSeparation = 0.9;   // of the distance: nearest points closer together are one feature
+constexpr double LargestProjection = 1.0; // voxels: farther than this the projection has left its crossing
+constexpr double NearVoxels = 4.0;        // voxels: how far the nearest sample is chosen exactly
+constexpr int MostMedialWalk = 64;        // steps along the interface to the nearest sample
 
 /// Runs body(k, items) for every slice k and joins the lists in the order of the slices.
 template <typename Item, typename Body>
 std::vector<Item> CollectSlices(int slices, const Body& body)
 {
   std::vector<std::vector<Item>> found(slices);
-  ParallelFor(0, slices, 1, [&](Index first, Index last) {
-    for (Index k = first; k < last; ++k)
+  ParallelFor(0, slices, 1,
+    [&](Index first, Index last)
     {
-      body(int(k), found[k]);
-    }
-  });
+      for (Index k = first; k < last; ++k)
+      {
+        body(int(k), found[k]);
+      }
+    });
   std::size_t count = 0;
   for (const auto& items : found)
   {
@@ -92,12 +94,14 @@ template <typename Item, typename Rank>
 std::vector<Index> OnePerVoxel(const Lattice& lattice, std::vector<Item>& items, const Rank& rank)
 {
   std::vector<std::pair<Index, std::int32_t>> order(items.size());
-  ParallelFor(0, Index(items.size()), 4096, [&](Index first, Index last) {
-    for (Index n = first; n < last; ++n)
+  ParallelFor(0, Index(items.size()), 4096,
+    [&](Index first, Index last)
     {
-      order[n] = { NearestSample(lattice, items[n].Position), std::int32_t(n) };
-    }
-  });
+      for (Index n = first; n < last; ++n)
+      {
+        order[n] = { NearestSample(lattice, items[n].Position), std::int32_t(n) };
+      }
+    });
   std::sort(order.begin(), order.end());
   std::vector<Item> kept;
   std::vector<Index> voxels;
@@ -140,9 +144,8 @@ public:
     const Vec3 u = this->Frame.Position(from[0], from[1], from[2]);
     Vec3 v = u;
     v[axis] += this->Frame.Spacing[axis];
-    const auto difference = [&](const Vec3& x) {
-      return this->Indicators.Value(sample.Materials[0], x) - this->Indicators.Value(sample.Materials[1], x);
-    };
+    const auto difference = [&](const Vec3& x)
+    { return this->Indicators.Value(sample.Materials[0], x) - this->Indicators.Value(sample.Materials[1], x); };
     const double first = difference(u), last = difference(v);
     const double t = first > last ? std::clamp(first / (first - last), 0.0, 1.0) : 0.5;
     const Vec3 crossing = u + t * (v - u);
@@ -253,7 +256,8 @@ std::vector<std::int32_t> ChooseBySamples(
   std::vector<std::int32_t> chosen(byVoxels.size());
   const double reach = NearVoxels * lattice.Spacing.maxCoeff();
   const float near = float(reach * reach);
-  const auto choose = [&](Index at, const std::array<int, 3>& c) {
+  const auto choose = [&](Index at, const std::array<int, 3>& c)
+  {
     const Vec3f x = lattice.Position(c[0], c[1], c[2]).cast<float>();
     std::int32_t best = byVoxels[at], tried = best;
     float least = (samples[best].Position - x).squaredNorm();
@@ -261,32 +265,36 @@ std::vector<std::int32_t> ChooseBySamples(
     {
       return best;
     }
-    ForEachAround(lattice, c, [&](Index voxel) {
-      const std::int32_t s = byVoxels[voxel];
-      if (s == best || s == tried)
+    ForEachAround(lattice, c,
+      [&](Index voxel)
       {
-        return;
-      }
-      tried = s;
-      const float distance = (samples[s].Position - x).squaredNorm();
-      if (distance < least)
-      {
-        least = distance;
-        best = s;
-      }
-    });
+        const std::int32_t s = byVoxels[voxel];
+        if (s == best || s == tried)
+        {
+          return;
+        }
+        tried = s;
+        const float distance = (samples[s].Position - x).squaredNorm();
+        if (distance < least)
+        {
+          least = distance;
+          best = s;
+        }
+      });
     return best;
   };
-  ParallelFor(0, Index(lattice.Dims[1]) * lattice.Dims[2], 64, [&](Index first, Index last) {
-    for (Index row = first; row < last; ++row)
+  ParallelFor(0, Index(lattice.Dims[1]) * lattice.Dims[2], 64,
+    [&](Index first, Index last)
     {
-      const int j = int(row % lattice.Dims[1]), k = int(row / lattice.Dims[1]);
-      for (int i = 0; i < lattice.Dims[0]; ++i)
+      for (Index row = first; row < last; ++row)
       {
-        chosen[lattice.At(i, j, k)] = choose(lattice.At(i, j, k), { i, j, k });
+        const int j = int(row % lattice.Dims[1]), k = int(row / lattice.Dims[1]);
+        for (int i = 0; i < lattice.Dims[0]; ++i)
+        {
+          chosen[lattice.At(i, j, k)] = choose(lattice.At(i, j, k), { i, j, k });
+        }
       }
-    }
-  });
+    });
   return chosen;
 }
 
@@ -318,8 +326,7 @@ public:
         const std::array<int, 3> here{ i, j, k };
         for (int a = 0; a < 3; ++a)
         {
-          if (here[a] + 1 >= dims[a] || nearest[at] == nearest[at + stride[a]] ||
-            labels[at] != labels[at + stride[a]])
+          if (here[a] + 1 >= dims[a] || nearest[at] == nearest[at + stride[a]] || labels[at] != labels[at + stride[a]])
           {
             continue;
           }
@@ -404,15 +411,17 @@ private:
     for (int step = 0; step < MostMedialWalk; ++step)
     {
       const std::int32_t from = p;
-      ForEachAround(this->Frame, this->Frame.Coordinates(this->Voxels[from]), [&](Index voxel) {
-        const std::int32_t s = this->Features.Nearest[voxel];
-        const float distance = (x - this->At(s)).squaredNorm();
-        if (distance < best)
+      ForEachAround(this->Frame, this->Frame.Coordinates(this->Voxels[from]),
+        [&](Index voxel)
         {
-          best = distance;
-          p = s;
-        }
-      });
+          const std::int32_t s = this->Features.Nearest[voxel];
+          const float distance = (x - this->At(s)).squaredNorm();
+          if (distance < best)
+          {
+            best = distance;
+            p = s;
+          }
+        });
       if (p == from)
       {
         break;
@@ -441,19 +450,21 @@ void MeasureFeatures(const Lattice& lattice, const std::vector<MedialPoint>& med
     return;
   }
   const std::vector<std::int32_t> nearest = NearestSeeds(lattice, medialVoxels);
-  ParallelFor(0, Index(features.Samples.size()), 4096, [&](Index first, Index last) {
-    for (Index n = first; n < last; ++n)
+  ParallelFor(0, Index(features.Samples.size()), 4096,
+    [&](Index first, Index last)
     {
-      InterfaceSample& sample = features.Samples[n];
-      const auto c = lattice.Coordinates(sampleVoxels[n]);
-      float best = float(features.Largest * features.Largest);
-      // The transform goes by voxels; the neighbours' choices stand in for what a point between voxels would choose.
-      ForEachAround(lattice, c, [&](Index voxel) {
-        best = std::min(best, (medial[nearest[voxel]].Position - sample.Position).squaredNorm());
-      });
-      sample.FeatureSize = std::sqrt(best);
-    }
-  });
+      for (Index n = first; n < last; ++n)
+      {
+        InterfaceSample& sample = features.Samples[n];
+        const auto c = lattice.Coordinates(sampleVoxels[n]);
+        float best = float(features.Largest * features.Largest);
+        // The transform goes by voxels; the neighbours' choices stand in for what a point between voxels would choose.
+        ForEachAround(lattice, c,
+          [&](Index voxel)
+          { best = std::min(best, (medial[nearest[voxel]].Position - sample.Position).squaredNorm()); });
+        sample.FeatureSize = std::sqrt(best);
+      }
+    });
 }
 }
 
@@ -468,8 +479,9 @@ FeatureSizes FindFeatureSizes(const IndicatorSet& indicators, const Monitor& mon
   const InterfaceSampler sampler(indicators);
   features.Samples = CollectSlices<InterfaceSample>(
     slices, [&sampler](int k, std::vector<InterfaceSample>& samples) { sampler.InSlice(k, samples); });
-  const std::vector<Index> voxels =
-    OnePerVoxel(lattice, features.Samples, [&lattice](const InterfaceSample& sample, Index voxel) {
+  const std::vector<Index> voxels = OnePerVoxel(lattice, features.Samples,
+    [&lattice](const InterfaceSample& sample, Index voxel)
+    {
       const auto c = lattice.Coordinates(voxel);
       return (lattice.Position(c[0], c[1], c[2]).cast<float>() - sample.Position).squaredNorm();
     });
@@ -484,10 +496,12 @@ FeatureSizes FindFeatureSizes(const IndicatorSet& indicators, const Monitor& mon
 
   monitor.Step(0.5, "Finding the medial axis");
   const MedialAxis axis(indicators, features, voxels);
-  std::vector<MedialPoint> medial = CollectSlices<MedialPoint>(slices, [&](int k, std::vector<MedialPoint>& found) {
-    axis.InSlice(k, found);
-    sampler.ThinPartsInSlice(k, found);
-  });
+  std::vector<MedialPoint> medial = CollectSlices<MedialPoint>(slices,
+    [&](int k, std::vector<MedialPoint>& found)
+    {
+      axis.InSlice(k, found);
+      sampler.ThinPartsInSlice(k, found);
+    });
   const std::vector<Index> medialVoxels =
     OnePerVoxel(lattice, medial, [](const MedialPoint& point, Index) { return point.Distance; });
 

@@ -201,20 +201,25 @@ std::vector<std::int32_t> NearestSeeds(const Lattice& lattice, const std::vector
   }
   const SeedCoordinates coordinates(lattice, seeds);
   const int nx = lattice.Dims[0], ny = lattice.Dims[1], nz = lattice.Dims[2];
-  ParallelFor(0, Index(ny) * nz, 256, [&](Index first, Index last) {
-    for (Index row = first; row < last; ++row)
+  ParallelFor(0, Index(ny) * nz, 256,
+    [&](Index first, Index last)
     {
-      NearestInRow(nearest.data() + row * nx, nx, coordinates);
-    }
-  });
-  const auto columns = [&](int axis, int others) {
-    const ColumnPass pass(lattice, axis, coordinates, nearest);
-    ParallelFor(0, others, 1, [&pass](Index first, Index last) {
-      for (Index other = first; other < last; ++other)
+      for (Index row = first; row < last; ++row)
       {
-        pass.Run(int(other));
+        NearestInRow(nearest.data() + row * nx, nx, coordinates);
       }
     });
+  const auto columns = [&](int axis, int others)
+  {
+    const ColumnPass pass(lattice, axis, coordinates, nearest);
+    ParallelFor(0, others, 1,
+      [&pass](Index first, Index last)
+      {
+        for (Index other = first; other < last; ++other)
+        {
+          pass.Run(int(other));
+        }
+      });
   };
   columns(1, nz);
   columns(2, ny);

@@ -89,7 +89,8 @@ RebuiltLabels RebuildFromSamples(
   result.Margin.assign(image.Size(), none);
   std::vector<float> second(image.Size(), none);
   const Contest contest{ image, result.Labels, result.Margin, second };
-  const auto rebuildSlice = [&](Index k) {
+  const auto rebuildSlice = [&](Index k)
+  {
     for (const IndicatorBlock& block : blocks)
     {
       contest.Enter(block, k);
@@ -100,12 +101,14 @@ RebuiltLabels RebuildFromSamples(
       result.Margin[at] = second[at] > none ? first - second[at] : first > none ? 2 * first : 0.0f;
     }
   };
-  ParallelFor(0, image.Dims[2], 1, [&](Index first, Index last) {
-    for (Index k = first; k < last; ++k)
+  ParallelFor(0, image.Dims[2], 1,
+    [&](Index first, Index last)
     {
-      rebuildSlice(k);
-    }
-  });
+      for (Index k = first; k < last; ++k)
+      {
+        rebuildSlice(k);
+      }
+    });
   monitor.Step(1.0);
   return result;
 }
@@ -116,16 +119,18 @@ RebuiltLabels RebuildLabels(const IndicatorSet& indicators, const Lattice& image
   RebuiltLabels result;
   result.Labels.resize(image.Size());
   result.Margin.resize(image.Size());
-  ParallelFor(0, Index(image.Dims[1]) * image.Dims[2], 16, [&](Index first, Index last) {
-    for (Index at = first * image.Dims[0]; at < last * image.Dims[0]; ++at)
+  ParallelFor(0, Index(image.Dims[1]) * image.Dims[2], 16,
+    [&](Index first, Index last)
     {
-      const auto c = image.Coordinates(at);
-      RankedMaterial ranked[2];
-      const int count = indicators.Largest(image.Position(c[0], c[1], c[2]), 2, ranked);
-      result.Labels[at] = indicators.LabelOf(ranked[0].Material);
-      result.Margin[at] = float(count > 1 ? ranked[0].Value - ranked[1].Value : 2 * ranked[0].Value);
-    }
-  });
+      for (Index at = first * image.Dims[0]; at < last * image.Dims[0]; ++at)
+      {
+        const auto c = image.Coordinates(at);
+        RankedMaterial ranked[2];
+        const int count = indicators.Largest(image.Position(c[0], c[1], c[2]), 2, ranked);
+        result.Labels[at] = indicators.LabelOf(ranked[0].Material);
+        result.Margin[at] = float(count > 1 ? ranked[0].Value - ranked[1].Value : 2 * ranked[0].Value);
+      }
+    });
   monitor.Step(1.0);
   return result;
 }

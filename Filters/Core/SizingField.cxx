@@ -14,7 +14,8 @@ namespace
 constexpr float Unbounded = 1e30f; // finite, so that an interpolation weight of zero makes it vanish
 
 constexpr double CurvatureFloor = 0.6; // of Epsilon * floor: the curvature of sampled fields is not trusted beyond
-constexpr double ShellVoxels = 2.0;    // samples this near to an interface sample hold its h0: every corner of a crossed cell
+constexpr double ShellVoxels =
+  2.0; // samples this near to an interface sample hold its h0: every corner of a crossed cell
 
 constexpr double HexagonArea = 0.866; // h^2: the area that each particle of a hexagonal packing has
 constexpr double PackingShare = 0.93; // of the ideal number, as measured on relaxed particles
@@ -24,7 +25,8 @@ constexpr int TargetIterations = 12;
 
 void Check(const SizingOptions& options)
 {
-  const auto require = [](bool holds, const std::string& what) {
+  const auto require = [](bool holds, const std::string& what)
+  {
     if (!holds)
     {
       throw std::invalid_argument(what);
@@ -96,7 +98,8 @@ void LimitGradient(const Lattice& lattice, double slope, std::vector<float>& h)
 {
   const Chamfer chamfer(lattice.Spacing, slope);
   const int nx = lattice.Dims[0], ny = lattice.Dims[1], nz = lattice.Dims[2];
-  const auto lower = [&](int j, int k, int sign) {
+  const auto lower = [&](int j, int k, int sign)
+  {
     float* row = h.data() + lattice.At(0, j, k);
     for (const Chamfer::Row& vector : chamfer.Rows)
     {
@@ -142,23 +145,25 @@ std::vector<float> SampleBound(const Lattice& working, const Grid<float>& user)
     length = length > 0 && length < Unbounded ? length : Unbounded;
   }
   std::vector<float> sampled(static_cast<std::size_t>(working.Size()), Unbounded);
-  ParallelFor(0, working.Dims[2], 1, [&](Index first, Index last) {
-    for (Index at = working.At(0, 0, first); at < working.At(0, 0, last); ++at)
+  ParallelFor(0, working.Dims[2], 1,
+    [&](Index first, Index last)
     {
-      const auto c = working.Coordinates(at);
-      const Vec3 x = working.Position(c[0], c[1], c[2]);
-      const Vec3 index = bound.Frame.ToIndex(x);
-      bool inside = true;
-      for (int a = 0; a < 3; ++a)
+      for (Index at = working.At(0, 0, first); at < working.At(0, 0, last); ++at)
       {
-        inside = inside && index[a] >= -0.5 && index[a] <= bound.Frame.Dims[a] - 0.5;
+        const auto c = working.Coordinates(at);
+        const Vec3 x = working.Position(c[0], c[1], c[2]);
+        const Vec3 index = bound.Frame.ToIndex(x);
+        bool inside = true;
+        for (int a = 0; a < 3; ++a)
+        {
+          inside = inside && index[a] >= -0.5 && index[a] <= bound.Frame.Dims[a] - 0.5;
+        }
+        if (inside)
+        {
+          sampled[at] = std::min(Unbounded, float(bound.Trilinear(x)));
+        }
       }
-      if (inside)
-      {
-        sampled[at] = std::min(Unbounded, float(bound.Trilinear(x)));
-      }
-    }
-  });
+    });
   return sampled;
 }
 
@@ -176,7 +181,8 @@ std::vector<Crossing> FindCrossings(const IndicatorSet& indicators)
   const auto& labels = indicators.Labels();
   const Index stride[3] = { 1, lattice.Dims[0], Index(lattice.Dims[0]) * lattice.Dims[1] };
   std::vector<std::vector<Crossing>> slices(lattice.Dims[2]);
-  const auto visit = [&](Index at, const std::array<int, 3>& c, std::vector<Crossing>& found) {
+  const auto visit = [&](Index at, const std::array<int, 3>& c, std::vector<Crossing>& found)
+  {
     for (int a = 0; a < 3; ++a)
     {
       const Index next = at + stride[a];
@@ -194,15 +200,17 @@ std::vector<Crossing> FindCrossings(const IndicatorSet& indicators)
       found.push_back({ at, next, float(lattice.VoxelVolume() / shadow) });
     }
   };
-  ParallelFor(0, lattice.Dims[2], 1, [&](Index first, Index last) {
-    for (Index k = first; k < last; ++k)
+  ParallelFor(0, lattice.Dims[2], 1,
+    [&](Index first, Index last)
     {
-      for (Index at = lattice.At(0, 0, k); at < lattice.At(0, 0, k + 1); ++at)
+      for (Index k = first; k < last; ++k)
       {
-        visit(at, lattice.Coordinates(at), slices[k]);
+        for (Index at = lattice.At(0, 0, k); at < lattice.At(0, 0, k + 1); ++at)
+        {
+          visit(at, lattice.Coordinates(at), slices[k]);
+        }
       }
-    }
-  });
+    });
   std::vector<Crossing> crossings;
   for (const auto& slice : slices)
   {
@@ -226,8 +234,8 @@ double Predict(const std::vector<Crossing>& crossings, const std::vector<float>&
 class SizingField
 {
 public:
-  SizingField(const IndicatorSet& indicators, const FeatureSizes& features, const SizingOptions& options,
-    const Grid<float>* user)
+  SizingField(
+    const IndicatorSet& indicators, const FeatureSizes& features, const SizingOptions& options, const Grid<float>* user)
     : Frame(indicators.Working())
     , Features(features)
     , Options(options)
@@ -239,21 +247,25 @@ public:
   {
     const std::vector<float> wanted = this->InitialLengths(scale);
     h.resize(this->Frame.Size());
-    ParallelFor(0, this->Frame.Dims[2], 1, [&](Index first, Index last) {
-      for (Index k = first; k < last; ++k)
+    ParallelFor(0, this->Frame.Dims[2], 1,
+      [&](Index first, Index last)
       {
-        this->SpreadSlice(int(k), wanted, h);
-      }
-    });
+        for (Index k = first; k < last; ++k)
+        {
+          this->SpreadSlice(int(k), wanted, h);
+        }
+      });
     LimitGradient(this->Frame, this->Options.Gradation, h);
     const float most = float(this->Options.MaximumLength > 0 ? this->Options.MaximumLength : this->Features.Largest);
     const float least = float(this->Options.MinimumLength);
-    ParallelFor(0, Index(h.size()), 65536, [&](Index first, Index last) {
-      for (Index at = first; at < last; ++at)
+    ParallelFor(0, Index(h.size()), 65536,
+      [&](Index first, Index last)
       {
-        h[at] = std::max(std::min(h[at], most), least);
-      }
-    });
+        for (Index at = first; at < last; ++at)
+        {
+          h[at] = std::max(std::min(h[at], most), least);
+        }
+      });
   }
 
 private:
@@ -262,25 +274,28 @@ private:
   {
     const SizingOptions& o = this->Options;
     const double floor = o.FeatureSizeFloor * this->Frame.VoxelSize();
-    const auto materialMaximum = [&o](MaterialId m) {
+    const auto materialMaximum = [&o](MaterialId m)
+    {
       const double most = m < o.MaterialMaximumLength.size() ? o.MaterialMaximumLength[m] : 0;
       return most > 0 ? most : double(Unbounded);
     };
     std::vector<float> lengths(this->Features.Samples.size());
-    ParallelFor(0, Index(lengths.size()), 4096, [&](Index first, Index last) {
-      for (Index n = first; n < last; ++n)
+    ParallelFor(0, Index(lengths.size()), 4096,
+      [&](Index first, Index last)
       {
-        const InterfaceSample& sample = this->Features.Samples[n];
-        double h = o.Epsilon * std::max(double(sample.FeatureSize), floor);
-        if (sample.Curvature > 0)
+        for (Index n = first; n < last; ++n)
         {
-          h = std::min(h, std::max(1.0 / sample.Curvature, CurvatureFloor * o.Epsilon * floor));
+          const InterfaceSample& sample = this->Features.Samples[n];
+          double h = o.Epsilon * std::max(double(sample.FeatureSize), floor);
+          if (sample.Curvature > 0)
+          {
+            h = std::min(h, std::max(1.0 / sample.Curvature, CurvatureFloor * o.Epsilon * floor));
+          }
+          h = std::min({ scale * h, materialMaximum(sample.Materials[0]), materialMaximum(sample.Materials[1]) });
+          h = o.MaximumLength > 0 ? std::min(h, o.MaximumLength) : h;
+          lengths[n] = float(std::max(h, o.MinimumLength));
         }
-        h = std::min({ scale * h, materialMaximum(sample.Materials[0]), materialMaximum(sample.Materials[1]) });
-        h = o.MaximumLength > 0 ? std::min(h, o.MaximumLength) : h;
-        lengths[n] = float(std::max(h, o.MinimumLength));
-      }
-    });
+      });
     return lengths;
   }
 
@@ -292,11 +307,13 @@ private:
     {
       for (int i = 0; i < this->Frame.Dims[0]; ++i, ++at)
       {
-        float length = this->UserBound.empty() ? Unbounded : std::max(this->UserBound[at], float(this->Options.MinimumLength));
+        float length =
+          this->UserBound.empty() ? Unbounded : std::max(this->UserBound[at], float(this->Options.MinimumLength));
         const std::int32_t nearest = this->Features.Nearest[at];
         if (nearest >= 0)
         {
-          const Vec3 offset = this->Frame.ToIndex(this->Features.Samples[nearest].Position.cast<double>()) - Vec3(i, j, k);
+          const Vec3 offset =
+            this->Frame.ToIndex(this->Features.Samples[nearest].Position.cast<double>()) - Vec3(i, j, k);
           if (offset.squaredNorm() <= ShellVoxels * ShellVoxels)
           {
             length = std::min(length, wanted[nearest]);
@@ -356,12 +373,14 @@ Grid<float> SpreadFeatureSize(const Lattice& frame, const FeatureSizes& features
   Grid<float> sizes(frame, float(features.Largest));
   if (!features.Samples.empty())
   {
-    ParallelFor(0, frame.Size(), 65536, [&](Index first, Index last) {
-      for (Index at = first; at < last; ++at)
+    ParallelFor(0, frame.Size(), 65536,
+      [&](Index first, Index last)
       {
-        sizes.Values[at] = features.Samples[features.Nearest[at]].FeatureSize;
-      }
-    });
+        for (Index at = first; at < last; ++at)
+        {
+          sizes.Values[at] = features.Samples[features.Nearest[at]].FeatureSize;
+        }
+      });
   }
   return sizes;
 }

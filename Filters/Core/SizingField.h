@@ -18,15 +18,15 @@ struct SizingOptions
   double MaximumLength = 0;    ///< world length; 0: none
   /// World length per material, 0: none; empty: none at all. Bounds h0 on that material's interfaces.
   std::vector<double> MaterialMaximumLength;
-  /// Triangles wanted: h0 is scaled until about half as many particles are predicted; 0: off. The minimum, the maxima and
-  /// the user's bound hold all the same, and may keep the target out of reach.
+  /// Triangles wanted: h0 is scaled until about half as many particles are predicted; 0: off. The minimum, the maxima
+  /// and the user's bound hold all the same, and may keep the target out of reach.
   double TargetTriangles = 0;
 };
 
 struct SizingResult
 {
   Grid<float> TargetLength; ///< world length, on the working lattice
-  Grid<float> FeatureSize;  ///< world length: distance to the medial axis at interface voxels, spread to the nearest others
+  Grid<float> FeatureSize;  ///< world length, of the nearest interface sample
   double PredictedParticles = 0; ///< before any moves
   double Scale = 1;              ///< of h0, to reach TargetTriangles
 };
@@ -39,11 +39,11 @@ struct SizingResult
 ///    The distance is that of a 3^3 chamfer mask (wider where the spacing is anisotropic): up to 13 % too long between
 ///    its directions.
 ///
-/// `user`, if not null, is a further upper bound of h: world length, on any lattice of the same local frame. Where it is
-/// not a positive number, and beyond its lattice, it bounds nothing.
+/// `user`, if not null, is a further upper bound of h: world length, on any lattice of the same local frame. Where it
+/// is not a positive number, and beyond its lattice, it bounds nothing.
 /// Throws std::invalid_argument when an option has no meaning, with a sentence for the user.
-SizingResult ComputeSizing(const IndicatorSet& indicators, const SizingOptions& options, const Grid<float>* user,
-  const Monitor& monitor);
+SizingResult ComputeSizing(
+  const IndicatorSet& indicators, const SizingOptions& options, const Grid<float>* user, const Monitor& monitor);
 
 /// About how many particles (vertices) a mesh with this sizing field has: 0.93 sum over label-changing grid edges of
 /// A / (0.866 h^2), A the area of interface that such an edge stands for. The number of triangles is about twice that.

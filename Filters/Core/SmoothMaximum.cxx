@@ -80,8 +80,8 @@ double SmoothMaximum(const double* values, int count, double epsilon, double* pa
       {
         // v_k enters the gates of its own term and one gate of every other term.
         const double slope = GateSlope(values[k] - values[j], epsilon);
-        partial += slope *
-          (values[k] * Gates(values, count, k, j, epsilon) - values[j] * Gates(values, count, j, k, epsilon));
+        partial +=
+          slope * (values[k] * Gates(values, count, k, j, epsilon) - values[j] * Gates(values, count, j, k, epsilon));
       }
     }
     partials[k] = scale * partial;
@@ -112,8 +112,8 @@ double InsideOutside(const IndicatorSet& indicators, MaterialId m, const Vec3& x
   return own - largest;
 }
 
-double CellIndicator(const IndicatorSet& indicators, const MaterialId* materials, int count, const Vec3& x,
-  double epsilon, Vec3* gradient)
+double CellIndicator(
+  const IndicatorSet& indicators, const MaterialId* materials, int count, const Vec3& x, double epsilon, Vec3* gradient)
 {
   double sum = 0;
   if (gradient)

@@ -51,8 +51,7 @@ double SteepestSlope(const Grid<float>& h, double slope)
   {
     const Index a = random() % h.Frame.Size(), b = random() % h.Frame.Size();
     const auto ca = h.Frame.Coordinates(a), cb = h.Frame.Coordinates(b);
-    const double distance =
-      (h.Frame.Position(ca[0], ca[1], ca[2]) - h.Frame.Position(cb[0], cb[1], cb[2])).norm();
+    const double distance = (h.Frame.Position(ca[0], ca[1], ca[2]) - h.Frame.Position(cb[0], cb[1], cb[2])).norm();
     if (a != b)
     {
       steepest = std::max(steepest, std::abs(double(h.Values[a]) - h.Values[b]) / (slope * distance));
@@ -83,7 +82,8 @@ TEST(FeatureTransform, FindsTheNearestOfAllSeeds)
   }
   std::sort(seeds.begin(), seeds.end());
   seeds.erase(std::unique(seeds.begin(), seeds.end()), seeds.end());
-  const auto position = [&](Index at) {
+  const auto position = [&](Index at)
+  {
     const auto c = lattice.Coordinates(at);
     return lattice.Position(c[0], c[1], c[2]);
   };
@@ -186,13 +186,15 @@ TEST(FeatureSize, IsNotTinyWhereInterfacesMeetAt120Degrees)
     EXPECT_GT(sample.FeatureSize, 3.0);
   }
   const SizingResult result = ComputeSizing(*set, SizingOptions(), nullptr, Monitor());
-  AtInterface(*set, result.TargetLength, [](const InterfaceSample& sample, double h) {
-    // At the border of the volume the samples are repeated: the field has a kink there.
-    if (((sample.Position - Eigen::Vector3f(23.5f, 23.5f, 11.5f)).array().abs() < 6).all())
+  AtInterface(*set, result.TargetLength,
+    [](const InterfaceSample& sample, double h)
     {
-      EXPECT_GT(h, 1.5);
-    }
-  });
+      // At the border of the volume the samples are repeated: the field has a kink there.
+      if (((sample.Position - Eigen::Vector3f(23.5f, 23.5f, 11.5f)).array().abs() < 6).all())
+      {
+        EXPECT_GT(h, 1.5);
+      }
+    });
 }
 
 TEST(SizingField, ObeysTheGradationAndTheFormula)
@@ -243,16 +245,18 @@ TEST(SizingField, TakesTheUsersImageAsABound)
   SizingOptions options;
   const SizingResult free = ComputeSizing(*set, options, nullptr, Monitor());
   const SizingResult bound = ComputeSizing(*set, options, &user, Monitor());
-  AtInterface(*set, bound.TargetLength, [&](const InterfaceSample& sample, double h) {
-    if (sample.Position[0] < 23)
+  AtInterface(*set, bound.TargetLength,
+    [&](const InterfaceSample& sample, double h)
     {
-      EXPECT_NEAR(h, 2.5, 1e-4);
-    }
-    if (sample.Position[0] > 40)
-    {
-      EXPECT_GT(h, 5.0);
-    }
-  });
+      if (sample.Position[0] < 23)
+      {
+        EXPECT_NEAR(h, 2.5, 1e-4);
+      }
+      if (sample.Position[0] > 40)
+      {
+        EXPECT_GT(h, 5.0);
+      }
+    });
   EXPECT_LT(SteepestSlope(bound.TargetLength, options.Gradation), 1.13);
   for (std::size_t at = 0; at < free.TargetLength.Values.size(); ++at)
   {
@@ -265,7 +269,8 @@ TEST(SizingField, GivesTheSameLengthsOnAnAnisotropicLattice)
   const Vec3 centre(36.3, 36.1, 35.8);
   SizingOptions options;
   options.FeatureSizeFloor = 0.5;
-  const auto median = [&](const SampledFields& set, double& least) {
+  const auto median = [&](const SampledFields& set, double& least)
+  {
     const SizingResult result = ComputeSizing(*set, options, nullptr, Monitor());
     EXPECT_LT(SteepestSlope(result.TargetLength, options.Gradation), 1.2);
     std::vector<double> lengths;
@@ -327,9 +332,10 @@ TEST(SizingField, OfOneMaterialHasNoInterface)
 
 TEST(SizingField, HasTheSameBitsForAnyNumberOfThreads)
 {
-  const SampledFields set(
-    MakeLattice(40, 40, 40), { Site(Vec3(8, 9, 10)), Site(Vec3(31, 12, 8)), Site(Vec3(20, 30, 31)), Site(Vec3(8, 28, 7)) });
-  const auto compute = [&](int threads) {
+  const SampledFields set(MakeLattice(40, 40, 40),
+    { Site(Vec3(8, 9, 10)), Site(Vec3(31, 12, 8)), Site(Vec3(20, 30, 31)), Site(Vec3(8, 28, 7)) });
+  const auto compute = [&](int threads)
+  {
     SizingResult result;
     vtkSMPTools::LocalScope(vtkSMPTools::Config{ threads, "STDThread", false },
       [&]() { result = ComputeSizing(*set, SizingOptions(), nullptr, Monitor()); });

@@ -81,10 +81,12 @@ public:
   explicit Listener(vtkObject* object)
   {
     this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long event, void* self, void* text) {
-      auto* listener = static_cast<Listener*>(self);
-      (event == vtkCommand::ErrorEvent ? listener->Errors : listener->Warnings) += static_cast<const char*>(text);
-    });
+    this->Command->SetCallback(
+      [](vtkObject*, unsigned long event, void* self, void* text)
+      {
+        auto* listener = static_cast<Listener*>(self);
+        (event == vtkCommand::ErrorEvent ? listener->Errors : listener->Warnings) += static_cast<const char*>(text);
+      });
     object->AddObserver(vtkCommand::ErrorEvent, this->Command);
     object->AddObserver(vtkCommand::WarningEvent, this->Command);
   }

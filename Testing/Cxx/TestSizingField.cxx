@@ -124,7 +124,8 @@ TEST(SizingFieldFilter, PassesItsOptionsOn)
   const GridFrame source = Source();
   vtkNew<vtkSizingField> filter;
   filter->SetInputDataObject(BallCollection(source));
-  const auto atPole = [&]() {
+  const auto atPole = [&]()
+  {
     filter->Update();
     return ValueAt(filter->GetOutput(), Names::TargetLength, source, Centre + Vec3(10, 0, 0));
   };
@@ -190,9 +191,8 @@ TEST(SizingFieldFilter, StopsWhenAborted)
   vtkNew<vtkSizingField> filter;
   filter->SetInputDataObject(BallCollection(Source()));
   vtkNew<vtkCallbackCommand> abort;
-  abort->SetCallback([](vtkObject* caller, unsigned long, void*, void*) {
-    vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
-  });
+  abort->SetCallback(
+    [](vtkObject* caller, unsigned long, void*, void*) { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
   filter->AddObserver(vtkCommand::ProgressEvent, abort);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
