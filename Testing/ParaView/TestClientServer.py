@@ -27,8 +27,6 @@ try:
     assert mesh.GetNumberOfPolys() > 500, mesh.GetNumberOfPolys()
     print(f"{mesh.GetNumberOfPolys()} triangles from the server")
     Disconnect()
-    server.wait(timeout=30)
 finally:
-    if server.poll() is None:
-        server.kill()
-        server.wait()
+    server.terminate()
+    server.wait()
