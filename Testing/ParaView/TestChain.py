@@ -77,10 +77,10 @@ assert table.GetNumberOfRows() == 3, table.GetNumberOfRows()  # with the backgro
 closed = table.GetColumnByName("Closed")
 assert all(closed.GetValue(row) == 1 for row in range(3))
 volumes = [table.GetColumnByName(name) for name in ("Volume", "VoxelVolume", "TightVolume")]
-for row in (1, 2):  # edges of 4 on balls of radius 12: the chords cost some percent
+for row in (1, 2):
     volume_of_mesh, of_voxels, of_tight = (column.GetValue(row) for column in volumes)
-    assert abs(volume_of_mesh / of_voxels - 1) < 0.08, (row, volume_of_mesh, of_voxels)
-    assert abs(volume_of_mesh / of_tight - 1) < 0.08, (row, volume_of_mesh, of_tight)
+    assert abs(volume_of_mesh / of_voxels - 1) < 0.12, (row, volume_of_mesh, of_voxels)
+    assert abs(volume_of_mesh / of_tight - 1) < 0.03, (row, volume_of_mesh, of_tight)
 assert output(report, 1).GetNumberOfRows() == 3, output(report, 1).GetNumberOfRows()
 assert output(LabelMeshReport(Input=grid)).GetNumberOfRows() == 3
 
