@@ -27,7 +27,8 @@ def look(_caller, _event):
         return
     try:
         source = mesher()
-        if source is None or not simple.GetRepresentation(source, simple.GetActiveView()).Visibility:
+        # Only what the application shows by itself: simple.GetRepresentation() would make what it does not find.
+        if source is None or not any(r.Visibility and r.Input == source for r in view.Representations if hasattr(r, "Input")):
             return
         triangles = source.GetDataInformation(0).GetNumberOfCells()
         if triangles == 0:
