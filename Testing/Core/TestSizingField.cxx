@@ -2,6 +2,7 @@
 // Feature sizes and sizing fields against shapes whose medial axes are known.
 #include "AnalyticFields.h"
 #include "FeatureTransform.h"
+#include "ParticleSystem.h"
 #include "SizingField.h"
 
 #include <vtkSMPTools.h>
@@ -295,7 +296,21 @@ TEST(SizingField, PredictsParticlesFromTheArea)
     const Lattice lattice = MakeLattice(int(60 / spacing[0]), int(60 / spacing[1]), int(60 / spacing[2]), spacing);
     const SampledFields set = BallIn(lattice, Vec3(29.3, 29.1, 28.8), 20);
     const double area = 4 * Pi * 20 * 20;
-    EXPECT_NEAR(PredictParticles(*set, Grid<float>(lattice, 2.0f)), 0.93 * area / (0.866 * 4), 0.03 * area / 4);
+    const double h = lattice.VoxelSize(); // where the share is 0.935
+    const double expected = 0.935 * area / (0.866 * h * h);
+    EXPECT_NEAR(PredictParticles(*set, Grid<float>(lattice, float(h))), expected, 0.03 * expected);
+  }
+}
+
+TEST(SizingField, PredictsWhatTheSamplingMakes)
+{
+  const Lattice lattice = MakeLattice(48, 48, 48);
+  const SampledFields set = BallIn(lattice, Vec3(23.3, 24.1, 23.8), 18);
+  for (const float h : { 0.75f, 1.0f, 1.5f, 2.5f, 4.0f })
+  {
+    const Grid<float> lengths(lattice, h);
+    const double made = double(SampleCells(*set, lengths, SampleOptions(), Monitor()).Particles.size());
+    EXPECT_NEAR(PredictParticles(*set, lengths) / made, 1.0, 0.12) << "h " << h;
   }
 }
 
