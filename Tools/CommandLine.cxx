@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CommandLine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <sstream>
+#include <stdexcept>
+
+namespace
+{
+[[noreturn]] void Fail(const std::string& sentence)
+{
+  throw std::invalid_argument(sentence);
+}
+
+double ParseNumber(const std::string& option, const std::string& text, double least)
+{
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+  {
+    Fail(option + " needs a number, found '" + text + "'");
+  }
+  if (value < least)
+  {
+    std::ostringstream bound;
+    bound << least;
+    Fail(option + " must be at least " + bound.str() + ", found " + text);
+  }
+  return value;
+}
+
+long long ParseInteger(const std::string& option, const std::string& text)
+{
+  char* end = nullptr;
+  const long long value = std::strtoll(text.c_str(), &end, 10);
+  if (text.empty() || *end != '\0')
+  {
+    Fail(option + " needs an integer, found '" + text + "'");
+  }
+  return value;
+}
+
+std::vector<std::string> Split(const std::string& text, char separator)
+{
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);)
+  {
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+std::array<double, 3> ParseColor(const std::string& option, const std::string& text)
+{
+  char* end = nullptr;
+  const unsigned long value = text.size() == 7 && text[0] == '#' ? std::strtoul(text.c_str() + 1, &end, 16) : 0;
+  if (!end || *end != '\0')
+  {
+    Fail(option + ": a color is written #rrggbb, found '" + text + "'");
+  }
+  return { (value >> 16 & 255) / 255.0, (value >> 8 & 255) / 255.0, (value & 255) / 255.0 };
+}
+
+void ParseMaterial(const std::string& text, std::map<long long, MaterialOptions>& materials)
+{
+  const std::string option = "--material " + text;
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || colon + 1 == text.size())
+  {
+    Fail("--material needs LABEL:key=value,..., found '" + text + "'");
+  }
+  MaterialOptions& material = materials[ParseInteger(option, text.substr(0, colon))];
+  for (const std::string& setting : Split(text.substr(colon + 1), ','))
+  {
+    const std::size_t equals = setting.find('=');
+    const std::string key = setting.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : setting.substr(equals + 1);
+    std::map<std::string, std::optional<double>*> numbers = { { "radius", &material.Radius },
+      { "opening", &material.OpeningRadius }, { "closing", &material.ClosingRadius },
+      { "max-length", &material.MaximumLength } };
+    if (const auto number = numbers.find(key); number != numbers.end())
+    {
+      *number->second = ParseNumber(option + ": " + key, value, 0.0);
+    }
+    else if (key == "name" && !value.empty())
+    {
+      material.Name = value;
+    }
+    else if (key == "color")
+    {
+      material.Color = ParseColor(option, value);
+    }
+    else
+    {
+      Fail(option + ": '" + setting + "' is none of radius=, opening=, closing=, max-length=, name=, color=");
+    }
+  }
+}
+
+using Action = std::function<void(const std::string& option, const std::string& value)>;
+
+/// The options that take a value.
+std::map<std::string, Action> Actions(CommandLine& line)
+{
+  const auto text = [](std::string& target) -> Action
+  {
+    return [&target](const std::string& option, const std::string& value)
+    {
+      if (value.empty())
+      {
+        Fail(option + " needs a file name");
+      }
+      target = value;
+    };
+  };
+  const auto number = [](std::optional<double>& target, double least) -> Action
+  {
+    return [&target, least](const std::string& option, const std::string& value)
+    { target = ParseNumber(option, value, least); };
+  };
+  return {
+    { "-o", text(line.Mesh) },
+    { "--surfaces", text(line.Surfaces) },
+    { "--particles", text(line.Particles) },
+    { "--report", text(line.Report) },
+    { "--tets",
+      [](const std::string&, const std::string&)
+      { Fail("--tets: this version makes surfaces only; leave the option out"); } },
+    { "--method",
+      [&line](const std::string&, const std::string& value)
+      {
+        if (value != "particle" && value != "grid")
+        {
+          Fail("--method is particle or grid, found '" + value + "'");
+        }
+        line.Grid = value == "grid";
+      } },
+    { "--radius", number(line.Radius, 0.0) },
+    { "--epsilon", number(line.Epsilon, 1e-3) },
+    { "--min-length", number(line.MinimumLength, 0.0) },
+    { "--max-length", number(line.MaximumLength, 0.0) },
+    { "--gradation", number(line.Gradation, 1e-3) },
+    { "--material",
+      [&line](const std::string&, const std::string& value) { ParseMaterial(value, line.Materials); } },
+    { "--labels",
+      [&line](const std::string& option, const std::string& value)
+      {
+        for (const std::string& label : Split(value, ','))
+        {
+          line.Labels.push_back(ParseInteger(option, label));
+        }
+        if (line.Labels.empty())
+        {
+          Fail("--labels needs labels, like 1,2,5");
+        }
+      } },
+    { "--background",
+      [&line](const std::string& option, const std::string& value) { line.Background = ParseInteger(option, value); } },
+    { "--triangles",
+      [&line](const std::string& option, const std::string& value)
+      { line.Triangles = static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 1)); } },
+    { "--threads",
+      [&line](const std::string& option, const std::string& value)
+      {
+        line.Threads = static_cast<int>(
+          std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 1), 4096.0));
+      } },
+  };
+}
+
+bool EndsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+void RequireSuffix(const std::string& option, const std::string& file, const std::string& suffix)
+{
+  if (!file.empty() && (!EndsWith(file, suffix) || file.size() == suffix.size()))
+  {
+    Fail(option + " writes a " + suffix + " file, found '" + file + "'");
+  }
+}
+
+/// What only makes sense together.
+void Check(const CommandLine& line, const std::set<std::string>& given)
+{
+  if (line.Input.empty())
+  {
+    Fail("no input file is given; labelmesh --help shows how it is used");
+  }
+  RequireSuffix("-o", line.Mesh, ".vtp");
+  RequireSuffix("--surfaces", line.Surfaces, ".vtpc");
+  RequireSuffix("--particles", line.Particles, ".vtp");
+  RequireSuffix("--report", line.Report, ".json");
+  std::set<std::string> files = { line.Input };
+  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Report })
+  {
+    if (!file.empty() && !files.insert(file).second)
+    {
+      Fail("'" + file + "' is named twice; every file needs a name of its own");
+    }
+  }
+  if (files.size() == 1)
+  {
+    Fail("there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
+  }
+  for (const char* option :
+    { "--particles", "--radius", "--material", "--epsilon", "--min-length", "--max-length", "--gradation" })
+  {
+    if (line.Grid && given.count(option))
+    {
+      Fail(std::string(option) + " belongs to --method particle; leave it out with --method grid");
+    }
+  }
+  if (line.MinimumLength && line.MaximumLength && *line.MaximumLength > 0 && *line.MinimumLength > *line.MaximumLength)
+  {
+    Fail("--min-length is larger than --max-length");
+  }
+}
+}
+
+CommandLine ParseCommandLine(int argc, char** argv)
+{
+  CommandLine line;
+  const std::map<std::string, Action> actions = Actions(line);
+  std::set<std::string> given;
+  for (int i = 1; i < argc; ++i)
+  {
+    std::string option = argv[i];
+    if (option == "--help" || option == "-h" || option == "--version")
+    {
+      (option == "--version" ? line.Version : line.Help) = true;
+      return line;
+    }
+    if (option == "--quiet")
+    {
+      line.Quiet = true;
+      continue;
+    }
+    if (option.empty() || option[0] != '-')
+    {
+      if (!line.Input.empty())
+      {
+        Fail("two input files are given, '" + line.Input + "' and '" + option + "'; labelmesh takes one");
+      }
+      line.Input = option;
+      continue;
+    }
+    // --option=value is as good as --option value.
+    const std::size_t equals = option.find('=');
+    const bool joined = option.compare(0, 2, "--") == 0 && equals != std::string::npos;
+    const std::string joinedValue = joined ? option.substr(equals + 1) : "";
+    option = joined ? option.substr(0, equals) : option;
+    const auto action = actions.find(option);
+    if (action == actions.end())
+    {
+      Fail("there is no option " + option + "; labelmesh --help lists them");
+    }
+    if (!joined && i + 1 == argc)
+    {
+      Fail(option + " needs a value");
+    }
+    action->second(option, joined ? joinedValue : argv[++i]);
+    given.insert(option);
+  }
+  Check(line, given);
+  return line;
+}
+
+std::string HelpText()
+{
+  return R"(usage: labelmesh INPUT [-o mesh.vtp] [--surfaces s.vtpc] [--particles p.vtp] [--report r.json] [options]
+
+Meshes all material interfaces of a label volume: watertight, conforming, adaptive.
+INPUT: .mha .mhd .nrrd .nii .nii.gz .vti; one integer label per voxel.
+
+Files to write (each only when asked for, and only whole):
+  -o FILE.vtp           triangles, each once, with the labels of its two sides (BoundaryLabels)
+  --surfaces FILE.vtpc  a closed surface per material, and the folder FILE beside it
+  --particles FILE.vtp  the particles, with the cells they lie on
+  --report FILE.json    counts, quality, volumes, losses, times
+
+Which labels:
+  --labels 1,2,5        mesh these, all others are background (default: all)
+  --background L        the background's label (default 0)
+
+Method:
+  --method particle     particles on smooth indicator functions (default)
+  --method grid         marching cubes, smoothing, decimation: the baseline to compare with
+
+Particle method (radii in voxels, lengths in world units):
+  --radius R            least radius of curvature after smoothing (default 1)
+  --material LABEL:key=value,...  for one material: radius=R, opening=R, closing=R, max-length=L, name=TEXT,
+                        color=#rrggbb; may be given several times
+  --epsilon E           edge length over feature size (default 0.5)
+  --min-length L, --max-length L  bounds of the edge length
+  --gradation G         how fast edge lengths may change (default 0.4)
+
+Both methods:
+  --triangles N         about how many triangles to make
+  --threads N           threads to use (default: all)
+  --quiet               no progress
+  --version, --help
+
+Exit status: 0 when every file asked for was written, else 1 and one line that says why.
+)";
+}

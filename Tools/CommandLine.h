@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line of labelmesh.
+#ifndef CommandLine_h
+#define CommandLine_h
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+/// What a material has of its own (--material LABEL:key=value,...). Radii in voxels, lengths in world units.
+struct MaterialOptions
+{
+  std::optional<double> Radius, OpeningRadius, ClosingRadius, MaximumLength;
+  std::optional<std::string> Name;
+  std::optional<std::array<double, 3>> Color;
+};
+
+struct CommandLine
+{
+  bool Help = false;
+  bool Version = false;
+  std::string Input;
+  std::string Mesh, Surfaces, Particles, Report; ///< files to write; empty: not asked for
+  bool Grid = false;                             ///< --method grid
+  std::vector<long long> Labels;
+  long long Background = 0;
+  std::map<long long, MaterialOptions> Materials;
+  std::optional<double> Radius, Epsilon, MinimumLength, MaximumLength, Gradation;
+  long long Triangles = 0;
+  int Threads = 0; ///< 0: as many as there are
+  bool Quiet = false;
+};
+
+/// Throws std::invalid_argument with a sentence.
+CommandLine ParseCommandLine(int argc, char** argv);
+
+/// What --help prints.
+std::string HelpText();
+
+#endif

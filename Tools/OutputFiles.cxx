@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OutputFiles.h"
+
+#include "Messages.h"
+
+#include <vtkNew.h>
+#include <vtkPartitionedDataSetCollection.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPartitionedDataSetCollectionWriter.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace
+{
+namespace fs = std::filesystem;
+
+[[noreturn]] void Fail(const std::string& sentence)
+{
+  throw std::runtime_error(sentence);
+}
+
+template <typename Writer>
+void RunWriter(Writer* writer, const std::string& file, const std::string& path)
+{
+  Messages messages(writer);
+  writer->SetFileName(path.c_str());
+  const int written = writer->Write();
+  std::error_code ignored;
+  if (!written || writer->GetErrorCode() != 0 || !messages.FirstError().empty() || fs::file_size(path, ignored) == 0)
+  {
+    Fail("cannot write '" + file + "'" + (messages.FirstError().empty() ? "" : ": " + messages.FirstError()));
+  }
+}
+
+void Move(const fs::path& from, const fs::path& to, const std::string& file)
+{
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (error)
+  {
+    Fail("cannot write '" + file + "': " + error.message());
+  }
+}
+
+/// True for the files that the writer of collections puts beside "name.vtpc": name_0_0.vtp, ...
+bool IsBlockOf(const std::string& name, const fs::path& path)
+{
+  const std::string file = path.filename().string();
+  return path.extension() == ".vtp" && file.compare(0, name.size() + 1, name + "_") == 0 &&
+    path.stem().string().find_first_not_of("0123456789_", name.size()) == std::string::npos;
+}
+
+/// Brings the blocks of a collection to their folder, which may hold other files that are none of our business.
+void MoveBlocks(const fs::path& from, const fs::path& to, const std::string& file)
+{
+  std::error_code error;
+  fs::create_directory(to, error);
+  if (!fs::is_directory(to))
+  {
+    Fail("cannot make the folder '" + to.string() + "' for the blocks of '" + file + "'");
+  }
+  for (const auto& old : fs::directory_iterator(to))
+  {
+    if (IsBlockOf(to.filename().string(), old.path()) && !fs::exists(from / old.path().filename()))
+    {
+      fs::remove(old.path(), error); // a block of an earlier run with more materials
+    }
+  }
+  for (const auto& block : fs::directory_iterator(from))
+  {
+    Move(block.path(), to / block.path().filename(), file);
+  }
+}
+}
+
+OutputFiles::~OutputFiles()
+{
+  for (const Place& place : this->Places)
+  {
+    std::error_code ignored;
+    fs::remove_all(place.Folder, ignored);
+  }
+}
+
+void OutputFiles::Expect(const std::string& file)
+{
+  fs::path folder = fs::path(file).parent_path();
+  folder = folder.empty() ? fs::path(".") : folder;
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored))
+  {
+    Fail("there is no folder '" + folder.string() + "' to write '" + file + "' into");
+  }
+  if (fs::is_directory(file, ignored))
+  {
+    Fail("'" + file + "' is a folder; give the name of a file");
+  }
+  std::string hidden = (folder / ".labelmesh-XXXXXX").string();
+  if (!mkdtemp(hidden.data()))
+  {
+    Fail("cannot write into the folder '" + folder.string() + "': " + std::strerror(errno));
+  }
+  this->Places.push_back({ file, hidden });
+}
+
+std::string OutputFiles::StagedPath(const std::string& file)
+{
+  const auto place =
+    std::find_if(this->Places.begin(), this->Places.end(), [&](const Place& p) { return p.File == file; });
+  if (place == this->Places.end())
+  {
+    throw std::logic_error("'" + file + "' was not expected");
+  }
+  place->Written = true;
+  return (fs::path(place->Folder) / fs::path(file).filename()).string();
+}
+
+void OutputFiles::WriteMesh(const std::string& file, vtkPolyData* mesh)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(mesh);
+  RunWriter(writer.Get(), file, this->StagedPath(file));
+}
+
+void OutputFiles::WriteSurfaces(const std::string& file, vtkPartitionedDataSetCollection* surfaces)
+{
+  vtkNew<vtkXMLPartitionedDataSetCollectionWriter> writer;
+  writer->SetInputDataObject(surfaces);
+  RunWriter(writer.Get(), file, this->StagedPath(file));
+}
+
+void OutputFiles::WriteText(const std::string& file, const std::string& text)
+{
+  std::ofstream stream(this->StagedPath(file), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream)
+  {
+    Fail("cannot write '" + file + "': " + std::strerror(errno));
+  }
+}
+
+void OutputFiles::Commit()
+{
+  for (const Place& place : this->Places)
+  {
+    if (!place.Written)
+    {
+      throw std::logic_error("'" + place.File + "' was not written");
+    }
+    const fs::path target(place.File);
+    const fs::path blocks = fs::path(place.Folder) / target.stem();
+    if (fs::is_directory(blocks))
+    {
+      MoveBlocks(blocks, target.parent_path() / target.stem(), place.File);
+    }
+    Move(fs::path(place.Folder) / target.filename(), target, place.File);
+  }
+}

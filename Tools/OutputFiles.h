@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that are written whole or not at all.
+#ifndef OutputFiles_h
+#define OutputFiles_h
+
+#include <string>
+#include <vector>
+
+class vtkPartitionedDataSetCollection;
+class vtkPolyData;
+
+/// Each file is written in a hidden folder of its own beside its place. Commit moves all of them to their places; without
+/// it the folders vanish with this object, and nothing has changed. All functions throw std::runtime_error with a sentence.
+class OutputFiles
+{
+public:
+  OutputFiles() = default;
+  ~OutputFiles();
+  OutputFiles(const OutputFiles&) = delete;
+  OutputFiles& operator=(const OutputFiles&) = delete;
+
+  /// Makes room for a file, so that a missing folder is known before the work begins.
+  void Expect(const std::string& file);
+
+  void WriteMesh(const std::string& file, vtkPolyData* mesh);
+  /// A .vtpc file has a folder of its name beside it with a .vtp file per block.
+  void WriteSurfaces(const std::string& file, vtkPartitionedDataSetCollection* surfaces);
+  void WriteText(const std::string& file, const std::string& text);
+
+  void Commit();
+
+private:
+  struct Place
+  {
+    std::string File;   ///< where it shall be
+    std::string Folder; ///< the hidden folder
+    bool Written = false;
+  };
+  std::string StagedPath(const std::string& file);
+
+  std::vector<Place> Places;
+};
+
+#endif
