@@ -2,6 +2,7 @@
 #include "LocalRepair.h"
 
 #include "Junction.h"
+#include "ManifoldLabels.h"
 #include "Relaxation.h"
 #include "TetraLabeling.h"
 
@@ -22,6 +23,7 @@ constexpr int RepairSweeps = 12;
 constexpr double WrongFaceCost = 100.0;
 constexpr double NonManifoldCost = 60.0;
 constexpr double LostPairCost = 40.0;
+constexpr double PinchedCost = 20.0;
 
 using Pair = std::array<MaterialId, 2>;
 
@@ -87,6 +89,10 @@ std::vector<BadSite> FindBadSites(
   for (const Edge& edge : NonManifoldEdges(faces))
   {
     sites.push_back({ { edge.first, edge.second }, {} });
+  }
+  for (const Index vertex : NonManifoldVertices(faces))
+  {
+    sites.push_back({ { vertex }, {} });
   }
   for (const InterfaceTriangle& face : faces)
   {
@@ -203,6 +209,10 @@ double LocalRepair::Badness(
   for (const Edge& edge : NonManifoldEdges(complex.Faces))
   {
     badness += inCore(edge.first) || inCore(edge.second) ? NonManifoldCost : 0.0;
+  }
+  for (const Index vertex : NonManifoldVertices(complex.Faces))
+  {
+    badness += inCore(vertex) ? PinchedCost : 0.0;
   }
   std::sort(present.begin(), present.end());
   present.erase(std::unique(present.begin(), present.end()), present.end());

@@ -9,10 +9,10 @@
 
 namespace LabelMesh
 {
-/// What is bad somewhere: a triangle below the wanted ratio, a wrong face, a non-manifold edge.
+/// What is bad somewhere: a triangle below the wanted ratio, a wrong face, a non-manifold edge or vertex.
 struct BadSite
 {
-  std::vector<Index> Vertices; ///< two or three particles
+  std::vector<Index> Vertices; ///< one to three particles
   std::array<MaterialId, 2> Materials{ NoMaterial, NoMaterial }; ///< of the face, if it is one
 };
 

@@ -2,6 +2,7 @@
 #include "MeshInterfaces.h"
 
 #include "LocalRepair.h"
+#include "ManifoldLabels.h"
 #include "TetraLabeling.h"
 
 namespace LabelMesh
@@ -45,6 +46,7 @@ void Judge(const std::vector<Particle>& particles, const InterfaceComplex& compl
   result.Tetrahedra = complex.Tetrahedra.Size();
   result.EmptySets = complex.Labels.EmptySets;
   result.NonManifoldEdges = Index(NonManifoldEdges(complex.Faces).size());
+  result.NonManifoldVertices = Index(NonManifoldVertices(complex.Faces).size());
   result.WrongFaces = result.BadTriangles = 0;
   result.WorstRatio = 1.0;
   for (const InterfaceTriangle& face : complex.Faces)

@@ -22,6 +22,7 @@ struct MeshResult
   Index EmptySets = 0;        ///< tetrahedra whose corners share no material
   Index WrongFaces = 0;       ///< faces whose two materials are not in all their vertices' sets
   Index NonManifoldEdges = 0; ///< edges that some material's surface uses other than twice
+  Index NonManifoldVertices = 0; ///< where the triangles of some material form more than one fan
   Index BadTriangles = 0;     ///< below RepairBelow
   double WorstRatio = 1.0;
   int Rounds = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TetraLabeling.h"
 
+#include "ManifoldLabels.h"
 #include "Parallel.h"
 
 #include <Eigen/Dense>
@@ -12,20 +13,6 @@ namespace LabelMesh
 namespace
 {
 constexpr double Certain = std::numeric_limits<double>::max();
-
-MaterialSet SharedMaterials(const std::vector<Particle>& particles, const std::array<std::int32_t, 4>& corners)
-{
-  MaterialSet shared;
-  for (const MaterialId m : particles[corners[0]].Materials)
-  {
-    if (particles[corners[1]].Materials.Contains(m) && particles[corners[2]].Materials.Contains(m) &&
-      particles[corners[3]].Materials.Contains(m))
-    {
-      shared.Insert(m);
-    }
-  }
-  return shared;
-}
 
 /// The largest of `materials` at x, and by how much.
 std::pair<MaterialId, double> LargestOf(const IndicatorSet& indicators, const MaterialSet& materials, const Vec3& x)
@@ -46,193 +33,20 @@ std::pair<MaterialId, double> LargestOf(const IndicatorSet& indicators, const Ma
   }
   return { best.Material, materials.Size() > 1 ? best.Value - second.Value : Certain };
 }
-
-/// Tetrahedra by the edges of a list: those around each edge.
-class EdgeRings
-{
-public:
-  explicit EdgeRings(const Tetrahedralization& tetrahedra, std::size_t points)
-    : Starts(points + 1, 0)
-  {
-    for (const auto& corners : tetrahedra.Corners)
-    {
-      for (const std::int32_t c : corners)
-      {
-        ++this->Starts[c + 1];
-      }
-    }
-    for (std::size_t n = 0; n < points; ++n)
-    {
-      this->Starts[n + 1] += this->Starts[n];
-    }
-    this->Tetrahedra.resize(this->Starts.back());
-    std::vector<Index> at(this->Starts.begin(), this->Starts.end() - 1);
-    for (Index t = 0; t < tetrahedra.Size(); ++t)
-    {
-      for (const std::int32_t c : tetrahedra.Corners[t])
-      {
-        this->Tetrahedra[at[c]++] = std::int32_t(t);
-      }
-    }
-  }
-
-  std::vector<std::int32_t> Around(const Tetrahedralization& tetrahedra, const Edge& edge) const
-  {
-    std::vector<std::int32_t> around;
-    for (Index n = this->Starts[edge.first]; n < this->Starts[edge.first + 1]; ++n)
-    {
-      const auto& corners = tetrahedra.Corners[this->Tetrahedra[n]];
-      if (std::find(corners.begin(), corners.end(), std::int32_t(edge.second)) != corners.end())
-      {
-        around.push_back(this->Tetrahedra[n]);
-      }
-    }
-    return around;
-  }
-
-private:
-  std::vector<Index> Starts;
-  std::vector<std::int32_t> Tetrahedra;
-};
-
-/// A run of equally labelled tetrahedra around an edge.
-struct Arc
-{
-  MaterialId Label = NoMaterial;
-  std::vector<std::int32_t> Tetrahedra;
-  std::vector<MaterialId> NeighborLabels;
-  bool OnHull = false;
-};
-
-std::vector<Arc> ArcsAround(const Tetrahedralization& tetrahedra, const std::vector<MaterialId>& labels,
-  const std::vector<std::int32_t>& ring, MaterialId outside)
-{
-  std::vector<Arc> arcs;
-  std::vector<char> done(ring.size(), 0);
-  for (std::size_t first = 0; first < ring.size(); ++first)
-  {
-    if (done[first])
-    {
-      continue;
-    }
-    Arc arc;
-    arc.Label = labels[ring[first]];
-    arc.Tetrahedra.push_back(ring[first]);
-    done[first] = 1;
-    for (std::size_t n = 0; n < arc.Tetrahedra.size(); ++n)
-    {
-      for (const std::int32_t neighbor : tetrahedra.Neighbors[arc.Tetrahedra[n]])
-      {
-        const auto at = std::find(ring.begin(), ring.end(), neighbor);
-        if (neighbor >= 0 && at != ring.end())
-        {
-          if (labels[neighbor] != arc.Label)
-          {
-            arc.NeighborLabels.push_back(labels[neighbor]);
-          }
-          else if (!done[at - ring.begin()])
-          {
-            done[at - ring.begin()] = 1;
-            arc.Tetrahedra.push_back(neighbor);
-          }
-        }
-        else if (neighbor < 0)
-        {
-          arc.OnHull = true;
-          if (arc.Label != outside)
-          {
-            arc.NeighborLabels.push_back(outside);
-          }
-        }
-      }
-    }
-    arcs.push_back(std::move(arc));
-  }
-  return arcs;
 }
 
-/// True when some material has more than one arc around the edge. The space beyond the hull is an arc of `outside`, joined
-/// to those that touch it.
-bool Tied(const std::vector<Arc>& arcs, MaterialId outside)
+MaterialSet SharedMaterials(const std::vector<Particle>& particles, const std::array<std::int32_t, 4>& corners)
 {
-  bool beyond = false;
-  for (const Arc& arc : arcs)
+  MaterialSet shared;
+  for (const MaterialId m : particles[corners[0]].Materials)
   {
-    beyond = beyond || arc.OnHull;
-  }
-  for (std::size_t a = 0; a < arcs.size(); ++a)
-  {
-    const bool reachesBeyond = arcs[a].OnHull && arcs[a].Label == outside;
-    if (beyond && arcs[a].Label == outside && !reachesBeyond)
+    if (particles[corners[1]].Materials.Contains(m) && particles[corners[2]].Materials.Contains(m) &&
+      particles[corners[3]].Materials.Contains(m))
     {
-      return true;
-    }
-    for (std::size_t b = a + 1; b < arcs.size(); ++b)
-    {
-      const bool joined = reachesBeyond && arcs[b].OnHull;
-      if (arcs[a].Label == arcs[b].Label && !joined)
-      {
-        return true;
-      }
+      shared.Insert(m);
     }
   }
-  return false;
-}
-
-/// The cheapest allowed relabelling of one arc that unties the edge; none where there is none.
-void UntieEdge(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
-  const std::vector<std::int32_t>& ring, TetraLabels& labels)
-{
-  const std::vector<Arc> arcs = ArcsAround(tetrahedra, labels.Labels, ring, outside);
-  if (!Tied(arcs, outside))
-  {
-    return;
-  }
-  double cheapest = Certain;
-  const Arc* flip = nullptr;
-  MaterialId to = NoMaterial;
-  for (const Arc& arc : arcs)
-  {
-    for (const MaterialId label : arc.NeighborLabels)
-    {
-      double cost = 0.0;
-      for (const std::int32_t t : arc.Tetrahedra)
-      {
-        const bool allowed = SharedMaterials(particles, tetrahedra.Corners[t]).Contains(label);
-        cost = allowed && cost < Certain ? cost + std::min(labels.Certainty[t], 1e100) : Certain;
-      }
-      if (cost >= cheapest)
-      {
-        continue;
-      }
-      std::vector<MaterialId> tried;
-      for (const std::int32_t t : ring)
-      {
-        const bool flipped = std::find(arc.Tetrahedra.begin(), arc.Tetrahedra.end(), t) != arc.Tetrahedra.end();
-        tried.push_back(labels.Labels[t]);
-        labels.Labels[t] = flipped ? label : labels.Labels[t];
-      }
-      const bool unties = !Tied(ArcsAround(tetrahedra, labels.Labels, ring, outside), outside);
-      for (std::size_t n = 0; n < ring.size(); ++n)
-      {
-        labels.Labels[ring[n]] = tried[n];
-      }
-      if (unties)
-      {
-        cheapest = cost;
-        flip = &arc;
-        to = label;
-      }
-    }
-  }
-  if (flip)
-  {
-    for (const std::int32_t t : flip->Tetrahedra)
-    {
-      labels.Labels[t] = to;
-    }
-  }
-}
+  return shared;
 }
 
 Vec3 Circumcentre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
@@ -295,47 +109,6 @@ TetraLabels LabelTetrahedra(
   return result;
 }
 
-std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces)
-{
-  struct Use
-  {
-    Index A, B;
-    MaterialId Material;
-    bool operator<(const Use& o) const { return std::tie(A, B, Material) < std::tie(o.A, o.B, o.Material); }
-    bool operator==(const Use& o) const { return A == o.A && B == o.B && Material == o.Material; }
-  };
-  std::vector<Use> uses;
-  uses.reserve(6 * faces.size());
-  for (const InterfaceTriangle& face : faces)
-  {
-    for (int e = 0; e < 3; ++e)
-    {
-      const auto [a, b] = std::minmax(face.Vertices[e], face.Vertices[(e + 1) % 3]);
-      for (const MaterialId m : face.Materials)
-      {
-        uses.push_back({ a, b, m });
-      }
-    }
-  }
-  std::sort(uses.begin(), uses.end());
-  std::vector<Edge> tied;
-  for (std::size_t n = 0; n < uses.size();)
-  {
-    std::size_t end = n;
-    while (end < uses.size() && uses[end] == uses[n])
-    {
-      ++end;
-    }
-    const Edge edge(uses[n].A, uses[n].B);
-    if (end - n != 2 && (tied.empty() || tied.back() != edge))
-    {
-      tied.push_back(edge);
-    }
-    n = end;
-  }
-  return tied;
-}
-
 bool IsWrong(const std::vector<Particle>& particles, const InterfaceTriangle& face)
 {
   for (const Index v : face.Vertices)
@@ -346,26 +119,6 @@ bool IsWrong(const std::vector<Particle>& particles, const InterfaceTriangle& fa
     }
   }
   return false;
-}
-
-void UntieEdges(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
-  TetraLabels& labels)
-{
-  constexpr int rounds = 8; // untying one edge may tie the next
-  std::vector<Edge> tied = NonManifoldEdges(InterfaceFaces(particles, tetrahedra, labels, outside));
-  if (tied.empty())
-  {
-    return;
-  }
-  const EdgeRings rings(tetrahedra, particles.size());
-  for (int round = 0; round < rounds && !tied.empty(); ++round)
-  {
-    for (const Edge& edge : tied)
-    {
-      UntieEdge(particles, tetrahedra, outside, rings.Around(tetrahedra, edge), labels);
-    }
-    tied = NonManifoldEdges(InterfaceFaces(particles, tetrahedra, labels, outside));
-  }
 }
 
 std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
@@ -419,7 +172,7 @@ InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vecto
   complex.Tetrahedra = DelaunayTetrahedra(points);
   complex.Labels = LabelTetrahedra(indicators, particles, complex.Tetrahedra);
   const MaterialId outside = indicators.Background() != NoMaterial ? indicators.Background() : MaterialId(0);
-  UntieEdges(particles, complex.Tetrahedra, outside, complex.Labels);
+  MakeManifold(particles, complex.Tetrahedra, outside, complex.Labels);
   complex.Faces = InterfaceFaces(particles, complex.Tetrahedra, complex.Labels, outside);
   return complex;
 }

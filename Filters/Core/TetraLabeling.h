@@ -23,10 +23,8 @@ struct TetraLabels
 TetraLabels LabelTetrahedra(
   const IndicatorSet& indicators, const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra);
 
-/// Relabels tetrahedra around edges where a material's surface would not be manifold: the arc of equal labels whose
-/// certainty is least goes to an allowed neighbour's label.
-void UntieEdges(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
-  TetraLabels& labels);
+/// The materials that all four corners of a tetrahedron share: those that it may be labelled with.
+MaterialSet SharedMaterials(const std::vector<Particle>& particles, const std::array<std::int32_t, 4>& corners);
 
 /// The faces between tetrahedra of different labels; beyond the hull is `outside`. Vertices are the particles' indices.
 std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
@@ -40,11 +38,6 @@ struct InterfaceComplex
   std::vector<InterfaceTriangle> Faces;
 };
 InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vector<Particle>& particles);
-
-using Edge = std::pair<Index, Index>; ///< vertices, ascending
-
-/// Edges that the surface of some material uses other than twice, ascending.
-std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces);
 
 /// A face is right if and only if both its materials are in the sets of all its vertices.
 bool IsWrong(const std::vector<Particle>& particles, const InterfaceTriangle& face);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticFields.h"
 #include "LocalRepair.h"
+#include "ManifoldLabels.h"
 #include "MeshInterfaces.h"
 #include "ParticleSystem.h"
 #include "TetraLabeling.h"
@@ -118,7 +119,7 @@ TEST(TetraLabeling, AFacePairMustBeInAllVertexSets)
   EXPECT_TRUE(IsWrong(particles, face));
 }
 
-TEST(TetraLabeling, FindsTheEdgeThatTwoSheetsShare)
+TEST(ManifoldLabels, FindsTheEdgeThatTwoSheetsShare)
 {
   // Two tetrahedron surfaces of material 1 that share one edge: four faces of material 1 meet there.
   const auto face = [](Index a, Index b, Index c)
@@ -135,6 +136,24 @@ TEST(TetraLabeling, FindsTheEdgeThatTwoSheetsShare)
     faces.push_back(t);
   }
   EXPECT_EQ(NonManifoldEdges(faces), (std::vector<Edge>{ { 0, 1 } }));
+  EXPECT_TRUE(NonManifoldVertices(faces).empty()) << "at both ends the sheets are joined by the edge";
+}
+
+TEST(ManifoldLabels, FindsTheVertexWhereTwoSheetsTouch)
+{
+  std::vector<InterfaceTriangle> faces;
+  const auto tetrahedron = [&](Index a, Index b, Index c, Index d)
+  {
+    for (const auto& v : { std::array<Index, 3>{ a, b, c }, { a, c, d }, { a, d, b }, { b, d, c } })
+    {
+      faces.push_back({ v, { 1, 0 } });
+    }
+  };
+  tetrahedron(0, 1, 2, 3);
+  EXPECT_TRUE(NonManifoldVertices(faces).empty());
+  tetrahedron(0, 4, 5, 6);
+  EXPECT_TRUE(NonManifoldEdges(faces).empty());
+  EXPECT_EQ(NonManifoldVertices(faces), (std::vector<Index>{ 0 }));
 }
 
 TEST(MeshInterfaces, ABallIsAClosedSphereOfItsVolume)

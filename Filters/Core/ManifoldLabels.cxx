@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ManifoldLabels.h"
+
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <tuple>
+
+namespace LabelMesh
+{
+namespace
+{
+constexpr int MostRounds = 8; // mending one fault may make the next
+
+/// A face's use by one material at a vertex: the other two vertices of the triangle.
+struct FanPiece
+{
+  MaterialId Material;
+  Index A, B;
+};
+
+/// The number of fans beyond one that the pieces of each material form: pieces that share a vertex are joined.
+int ExtraFans(std::vector<FanPiece>& pieces)
+{
+  std::sort(pieces.begin(), pieces.end(),
+    [](const FanPiece& p, const FanPiece& q)
+    { return std::tie(p.Material, p.A, p.B) < std::tie(q.Material, q.A, q.B); });
+  int extra = 0;
+  std::vector<std::size_t> fan;
+  for (std::size_t first = 0; first < pieces.size();)
+  {
+    std::size_t last = first;
+    while (last < pieces.size() && pieces[last].Material == pieces[first].Material)
+    {
+      ++last;
+    }
+    // The smallest number of a fan spreads until nothing changes: fans have a handful of pieces.
+    fan.resize(last - first);
+    std::iota(fan.begin(), fan.end(), std::size_t(0));
+    for (bool changed = true; changed;)
+    {
+      changed = false;
+      for (std::size_t p = first; p < last; ++p)
+      {
+        for (std::size_t q = p + 1; q < last; ++q)
+        {
+          const bool touch = pieces[p].A == pieces[q].A || pieces[p].A == pieces[q].B || pieces[p].B == pieces[q].A ||
+            pieces[p].B == pieces[q].B;
+          if (touch && fan[p - first] != fan[q - first])
+          {
+            fan[p - first] = fan[q - first] = std::min(fan[p - first], fan[q - first]);
+            changed = true;
+          }
+        }
+      }
+    }
+    std::sort(fan.begin(), fan.end());
+    extra += int(std::unique(fan.begin(), fan.end()) - fan.begin()) - 1;
+    first = last;
+  }
+  return extra;
+}
+
+/// The edges from a vertex that some material's pieces use other than twice, counted once per material.
+int TiedEdges(const std::vector<FanPiece>& pieces)
+{
+  std::vector<std::pair<MaterialId, Index>> uses;
+  for (const FanPiece& p : pieces)
+  {
+    uses.emplace_back(p.Material, p.A);
+    uses.emplace_back(p.Material, p.B);
+  }
+  std::sort(uses.begin(), uses.end());
+  int tied = 0;
+  for (std::size_t first = 0; first < uses.size();)
+  {
+    std::size_t last = first;
+    while (last < uses.size() && uses[last] == uses[first])
+    {
+      ++last;
+    }
+    tied += last - first != 2;
+    first = last;
+  }
+  return tied;
+}
+
+class Untying
+{
+public:
+  Untying(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
+    TetraLabels& labels)
+    : Particles(particles)
+    , Tetrahedra(tetrahedra)
+    , Outside(outside)
+    , Labels(labels)
+    , Starts(particles.size() + 1, 0)
+  {
+    for (const auto& corners : tetrahedra.Corners)
+    {
+      for (const std::int32_t c : corners)
+      {
+        ++this->Starts[c + 1];
+      }
+    }
+    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
+    this->Stars.resize(this->Starts.back());
+    std::vector<Index> at(this->Starts.begin(), this->Starts.end() - 1);
+    for (Index t = 0; t < tetrahedra.Size(); ++t)
+    {
+      for (const std::int32_t c : tetrahedra.Corners[t])
+      {
+        this->Stars[at[c]++] = std::int32_t(t);
+      }
+    }
+  }
+
+  void MendEdge(const Edge& edge)
+  {
+    std::vector<std::int32_t> around;
+    for (const std::int32_t t : this->Star(edge.first))
+    {
+      const auto& corners = this->Tetrahedra.Corners[t];
+      if (std::find(corners.begin(), corners.end(), std::int32_t(edge.second)) != corners.end())
+      {
+        around.push_back(t);
+      }
+    }
+    this->Mend(around);
+  }
+  void MendVertex(Index vertex) { this->Mend(this->Star(vertex)); }
+
+private:
+  struct Group
+  {
+    std::vector<std::int32_t> Tetrahedra;
+    std::vector<MaterialId> Neighbors;
+  };
+
+  std::vector<std::int32_t> Star(Index vertex) const
+  {
+    return { this->Stars.begin() + this->Starts[vertex], this->Stars.begin() + this->Starts[vertex + 1] };
+  }
+
+  /// What is wrong at a vertex: extra fans, and edges in tangles.
+  int Faults(Index vertex) const
+  {
+    std::vector<FanPiece> pieces;
+    for (Index n = this->Starts[vertex]; n < this->Starts[vertex + 1]; ++n)
+    {
+      const std::int32_t t = this->Stars[n];
+      const auto& corners = this->Tetrahedra.Corners[t];
+      for (int j = 0; j < 4; ++j)
+      {
+        const std::int32_t neighbor = this->Tetrahedra.Neighbors[t][j];
+        const MaterialId own = this->Labels.Labels[t];
+        const MaterialId other = neighbor < 0 ? this->Outside : this->Labels.Labels[neighbor];
+        if (corners[j] == vertex || other == own || (neighbor >= 0 && neighbor < t))
+        {
+          continue;
+        }
+        Index others[2] = { -1, -1 };
+        for (int c = 0, found = 0; c < 4; ++c)
+        {
+          if (c != j && corners[c] != vertex)
+          {
+            others[found++] = corners[c];
+          }
+        }
+        pieces.push_back({ own, others[0], others[1] });
+        pieces.push_back({ other, others[0], others[1] });
+      }
+    }
+    const int tied = TiedEdges(pieces);
+    return ExtraFans(pieces) + 2 * tied;
+  }
+
+  int FaultsAt(const std::vector<std::int32_t>& tetrahedra) const
+  {
+    std::vector<std::int32_t> vertices;
+    for (const std::int32_t t : tetrahedra)
+    {
+      vertices.insert(vertices.end(), this->Tetrahedra.Corners[t].begin(), this->Tetrahedra.Corners[t].end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    int faults = 0;
+    for (const std::int32_t v : vertices)
+    {
+      faults += this->Faults(v);
+    }
+    return faults;
+  }
+
+  /// Face-connected runs of equal labels among the tetrahedra.
+  std::vector<Group> GroupsOf(const std::vector<std::int32_t>& around) const
+  {
+    std::vector<Group> groups;
+    std::vector<char> done(around.size(), 0);
+    for (std::size_t first = 0; first < around.size(); ++first)
+    {
+      if (done[first])
+      {
+        continue;
+      }
+      Group group;
+      const MaterialId label = this->Labels.Labels[around[first]];
+      group.Tetrahedra.push_back(around[first]);
+      done[first] = 1;
+      for (std::size_t n = 0; n < group.Tetrahedra.size(); ++n)
+      {
+        for (const std::int32_t neighbor : this->Tetrahedra.Neighbors[group.Tetrahedra[n]])
+        {
+          const MaterialId other = neighbor < 0 ? this->Outside : this->Labels.Labels[neighbor];
+          const auto at = std::find(around.begin(), around.end(), neighbor);
+          if (other != label)
+          {
+            group.Neighbors.push_back(other);
+          }
+          else if (at != around.end() && !done[at - around.begin()])
+          {
+            done[at - around.begin()] = 1;
+            group.Tetrahedra.push_back(neighbor);
+          }
+        }
+      }
+      std::sort(group.Neighbors.begin(), group.Neighbors.end());
+      group.Neighbors.erase(std::unique(group.Neighbors.begin(), group.Neighbors.end()), group.Neighbors.end());
+      groups.push_back(std::move(group));
+    }
+    return groups;
+  }
+
+  double CostOf(const Group& group, MaterialId label) const
+  {
+    double cost = 0.0;
+    for (const std::int32_t t : group.Tetrahedra)
+    {
+      if (!SharedMaterials(this->Particles, this->Tetrahedra.Corners[t]).Contains(label))
+      {
+        return std::numeric_limits<double>::infinity();
+      }
+      cost += std::min(this->Labels.Certainty[t], 1e100);
+    }
+    return cost;
+  }
+
+  void Relabel(const Group& group, MaterialId label)
+  {
+    for (const std::int32_t t : group.Tetrahedra)
+    {
+      this->Labels.Labels[t] = label;
+    }
+  }
+
+  void Mend(const std::vector<std::int32_t>& around)
+  {
+    std::vector<Group> groups = this->GroupsOf(around);
+    // Single tetrahedra too: a group may hold more than need change.
+    for (const std::int32_t t : around)
+    {
+      groups.push_back({ { t }, {} });
+      for (const std::int32_t neighbor : this->Tetrahedra.Neighbors[t])
+      {
+        groups.back().Neighbors.push_back(neighbor < 0 ? this->Outside : this->Labels.Labels[neighbor]);
+      }
+    }
+    int bestGain = 0;
+    double bestCost = std::numeric_limits<double>::infinity();
+    const Group* bestGroup = nullptr;
+    MaterialId bestLabel = NoMaterial;
+    for (const Group& group : groups)
+    {
+      const MaterialId own = this->Labels.Labels[group.Tetrahedra.front()];
+      const int before = this->FaultsAt(group.Tetrahedra);
+      for (const MaterialId label : group.Neighbors)
+      {
+        const double cost = label == own ? std::numeric_limits<double>::infinity() : this->CostOf(group, label);
+        if (!(cost < std::numeric_limits<double>::infinity()))
+        {
+          continue;
+        }
+        this->Relabel(group, label);
+        const int gain = before - this->FaultsAt(group.Tetrahedra);
+        this->Relabel(group, own);
+        if (gain > bestGain || (gain == bestGain && gain > 0 && cost < bestCost))
+        {
+          bestGain = gain;
+          bestCost = cost;
+          bestGroup = &group;
+          bestLabel = label;
+        }
+      }
+    }
+    if (bestGroup)
+    {
+      this->Relabel(*bestGroup, bestLabel);
+    }
+  }
+
+  const std::vector<Particle>& Particles;
+  const Tetrahedralization& Tetrahedra;
+  MaterialId Outside;
+  TetraLabels& Labels;
+  std::vector<Index> Starts; // tetrahedra at vertex v: Stars[Starts[v] .. Starts[v + 1])
+  std::vector<std::int32_t> Stars;
+};
+}
+
+std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces)
+{
+  struct Use
+  {
+    Index A, B;
+    MaterialId Material;
+    bool operator<(const Use& o) const { return std::tie(A, B, Material) < std::tie(o.A, o.B, o.Material); }
+    bool operator==(const Use& o) const { return A == o.A && B == o.B && Material == o.Material; }
+  };
+  std::vector<Use> uses;
+  uses.reserve(6 * faces.size());
+  for (const InterfaceTriangle& face : faces)
+  {
+    for (int e = 0; e < 3; ++e)
+    {
+      const auto [a, b] = std::minmax(face.Vertices[e], face.Vertices[(e + 1) % 3]);
+      for (const MaterialId m : face.Materials)
+      {
+        uses.push_back({ a, b, m });
+      }
+    }
+  }
+  std::sort(uses.begin(), uses.end());
+  std::vector<Edge> tied;
+  for (std::size_t n = 0; n < uses.size();)
+  {
+    std::size_t end = n;
+    while (end < uses.size() && uses[end] == uses[n])
+    {
+      ++end;
+    }
+    const Edge edge(uses[n].A, uses[n].B);
+    if (end - n != 2 && (tied.empty() || tied.back() != edge))
+    {
+      tied.push_back(edge);
+    }
+    n = end;
+  }
+  return tied;
+}
+
+std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& faces)
+{
+  Index points = 0;
+  for (const InterfaceTriangle& face : faces)
+  {
+    points = std::max(points, 1 + *std::max_element(face.Vertices.begin(), face.Vertices.end()));
+  }
+  std::vector<Index> starts(points + 1, 0);
+  for (const InterfaceTriangle& face : faces)
+  {
+    for (const Index v : face.Vertices)
+    {
+      ++starts[v + 1];
+    }
+  }
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<Index> incident(3 * faces.size()), at(starts.begin(), starts.end() - 1);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    for (const Index v : faces[f].Vertices)
+    {
+      incident[at[v]++] = Index(f);
+    }
+  }
+  std::vector<Index> pinched;
+  std::vector<FanPiece> pieces;
+  for (Index v = 0; v < points; ++v)
+  {
+    pieces.clear();
+    for (Index n = starts[v]; n < starts[v + 1]; ++n)
+    {
+      const InterfaceTriangle& face = faces[incident[n]];
+      const int own = face.Vertices[0] == v ? 0 : face.Vertices[1] == v ? 1 : 2;
+      for (const MaterialId m : face.Materials)
+      {
+        pieces.push_back({ m, face.Vertices[(own + 1) % 3], face.Vertices[(own + 2) % 3] });
+      }
+    }
+    if (ExtraFans(pieces) > 0)
+    {
+      pinched.push_back(v);
+    }
+  }
+  return pinched;
+}
+
+void MakeManifold(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
+  TetraLabels& labels)
+{
+  std::unique_ptr<Untying> untying;
+  for (int round = 0; round < MostRounds; ++round)
+  {
+    const std::vector<InterfaceTriangle> faces = InterfaceFaces(particles, tetrahedra, labels, outside);
+    const std::vector<Edge> edges = NonManifoldEdges(faces);
+    const std::vector<Index> vertices = NonManifoldVertices(faces);
+    if (edges.empty() && vertices.empty())
+    {
+      return;
+    }
+    if (!untying)
+    {
+      untying = std::make_unique<Untying>(particles, tetrahedra, outside, labels);
+    }
+    const std::vector<MaterialId> before = labels.Labels;
+    for (const Edge& edge : edges)
+    {
+      untying->MendEdge(edge);
+    }
+    for (const Index vertex : vertices)
+    {
+      untying->MendVertex(vertex);
+    }
+    if (labels.Labels == before)
+    {
+      return;
+    }
+  }
+}
+}
