@@ -11,9 +11,9 @@ namespace LabelMesh
 namespace
 {
 // In target lengths of the site.
-constexpr double PatchRadius = 7.0; // particles that are tetrahedralised
-constexpr double CoreRadius = 3.0;  // faces with a vertex within are judged
-constexpr double MoveRadius = 2.5;  // particles within may move
+constexpr double PatchRadius = 5.0; // particles that are tetrahedralised
+constexpr double CoreRadius = 2.5;  // faces with a vertex within are judged
+constexpr double MoveRadius = 2.2;  // particles within may move
 
 constexpr double SameJunction = 0.5; // as in the sampling of curves
 
