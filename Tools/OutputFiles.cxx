@@ -9,6 +9,8 @@
 #include <vtkXMLPartitionedDataSetCollectionWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
@@ -24,6 +26,12 @@ namespace fs = std::filesystem;
 [[noreturn]] void Fail(const std::string& sentence)
 {
   throw std::runtime_error(sentence);
+}
+
+fs::path FolderOf(const std::string& file)
+{
+  const fs::path folder = fs::path(file).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
 }
 
 template <typename Writer>
@@ -85,14 +93,16 @@ OutputFiles::~OutputFiles()
   for (const Place& place : this->Places)
   {
     std::error_code ignored;
-    fs::remove_all(place.Folder, ignored);
+    if (!place.Folder.empty())
+    {
+      fs::remove_all(place.Folder, ignored);
+    }
   }
 }
 
 void OutputFiles::Expect(const std::string& file)
 {
-  fs::path folder = fs::path(file).parent_path();
-  folder = folder.empty() ? fs::path(".") : folder;
+  const fs::path folder = FolderOf(file);
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
   {
@@ -102,12 +112,11 @@ void OutputFiles::Expect(const std::string& file)
   {
     Fail("'" + file + "' is a folder; give the name of a file");
   }
-  std::string hidden = (folder / ".labelmesh-XXXXXX").string();
-  if (!mkdtemp(hidden.data()))
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
   {
     Fail("cannot write into the folder '" + folder.string() + "': " + std::strerror(errno));
   }
-  this->Places.push_back({ file, hidden });
+  this->Places.push_back({ file, "" });
 }
 
 std::string OutputFiles::StagedPath(const std::string& file)
@@ -118,7 +127,12 @@ std::string OutputFiles::StagedPath(const std::string& file)
   {
     throw std::logic_error("'" + file + "' was not expected");
   }
-  place->Written = true;
+  std::string hidden = (FolderOf(file) / ".labelmesh-XXXXXX").string();
+  if (!mkdtemp(hidden.data()))
+  {
+    Fail("cannot write into the folder '" + FolderOf(file).string() + "': " + std::strerror(errno));
+  }
+  place->Folder = hidden;
   return (fs::path(place->Folder) / fs::path(file).filename()).string();
 }
 
@@ -151,7 +165,7 @@ void OutputFiles::Commit()
 {
   for (const Place& place : this->Places)
   {
-    if (!place.Written)
+    if (place.Folder.empty())
     {
       throw std::logic_error("'" + place.File + "' was not written");
     }

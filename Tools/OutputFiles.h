@@ -19,7 +19,7 @@ public:
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
 
-  /// Makes room for a file, so that a missing folder is known before the work begins.
+  /// Announces a file, so that a missing folder is known before the work begins.
   void Expect(const std::string& file);
 
   void WriteMesh(const std::string& file, vtkPolyData* mesh);
@@ -33,8 +33,7 @@ private:
   struct Place
   {
     std::string File;   ///< where it shall be
-    std::string Folder; ///< the hidden folder
-    bool Written = false;
+    std::string Folder; ///< the hidden folder; empty until the file is written
   };
   std::string StagedPath(const std::string& file);
 

@@ -19,11 +19,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace
@@ -263,9 +265,79 @@ vtkSmartPointer<vtkAlgorithm> ReaderOf(const std::string& file, const std::strin
   return reader;
 }
 
+/// Bytes of one sample of a NRRD type; 0 for types that are not known here.
+std::size_t NrrdSampleSize(const std::string& type)
+{
+  const std::size_t first = type.find_first_not_of(' ');
+  const std::string name = first == std::string::npos ? "" : OneLine(type.substr(first));
+  const std::pair<std::size_t, std::vector<const char*>> sizes[] = {
+    { 1, { "char", "signed char", "int8", "int8_t", "uchar", "unsigned char", "uint8", "uint8_t" } },
+    { 2, { "short", "short int", "signed short", "signed short int", "int16", "int16_t", "ushort", "unsigned short",
+           "unsigned short int", "uint16", "uint16_t" } },
+    { 4, { "int", "signed int", "int32", "int32_t", "uint", "unsigned int", "uint32", "uint32_t", "float" } },
+    { 8, { "longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t",
+           "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t", "double" } } };
+  for (const auto& size : sizes)
+  {
+    if (std::find(size.second.begin(), size.second.end(), name) != size.second.end())
+    {
+      return size.first;
+    }
+  }
+  return 0;
+}
+
+/// Bytes behind the header of a NRRD file, which ends with an empty line.
+std::uintmax_t NrrdDataSize(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  while (std::getline(stream, line) && !line.empty() && line != "\r")
+  {
+  }
+  const auto begin = stream.tellg();
+  return begin < 0 ? 0 : fs::file_size(file) - static_cast<std::uintmax_t>(begin);
+}
+
+/// vtkNrrdReader does not notice raw data that end early, and never comes back from a gzip stream that does. The last four
+/// bytes of such a stream hold the length of what was packed, which the header gives too.
+void RequireWholeNrrd(const std::string& file)
+{
+  const std::string encoding = OneLine(HeaderValue(file, "encoding", ":"));
+  const bool detached =
+    !HeaderValue(file, "data file", ":").empty() || !HeaderValue(file, "datafile", ":").empty();
+  std::size_t expected = NrrdSampleSize(HeaderValue(file, "type", ":"));
+  for (const double size : NumbersIn(HeaderValue(file, "sizes", ":")))
+  {
+    expected *= static_cast<std::size_t>(std::max(size, 0.0));
+  }
+  if (detached || expected == 0)
+  {
+    return;
+  }
+  bool whole = encoding != "raw" || NrrdDataSize(file) >= expected;
+  if (encoding == "gzip" || encoding == "gz")
+  {
+    std::array<unsigned char, 4> tail{};
+    std::ifstream stream(file, std::ios::binary);
+    stream.seekg(-4, std::ios::end);
+    stream.read(reinterpret_cast<char*>(tail.data()), 4);
+    const std::uint32_t packed = tail[0] | tail[1] << 8 | tail[2] << 16 | static_cast<std::uint32_t>(tail[3]) << 24;
+    whole = stream && packed == static_cast<std::uint32_t>(expected);
+  }
+  if (!whole)
+  {
+    Fail("it is truncated: its data end too early");
+  }
+}
+
 vtkSmartPointer<vtkImageData> Read(const std::string& file)
 {
   const std::string suffix = SuffixOf(file);
+  if (suffix == ".nrrd")
+  {
+    RequireWholeNrrd(file);
+  }
   const StreamCapture capture;
   const vtkSmartPointer<vtkAlgorithm> reader = ReaderOf(file, suffix);
   Messages messages(reader);
@@ -273,8 +345,8 @@ vtkSmartPointer<vtkImageData> Read(const std::string& file)
   const std::string error = messages.FirstError();
   if (!error.empty() || reader->GetErrorCode() != 0 || !capture.Text().empty())
   {
-    Fail("it is broken or truncated" + (error.empty() ? "" : ": " + error) +
-      (capture.Text().empty() ? "" : ": " + OneLine(capture.Text())));
+    const std::string words = error.empty() ? OneLine(capture.Text()) : error;
+    Fail("it is broken or truncated" + (words.empty() ? "" : " (" + words + ")"));
   }
   vtkImageData* image = vtkImageData::SafeDownCast(reader->GetOutputDataObject(0));
   if (!image || image->GetNumberOfPoints() == 0)

@@ -40,6 +40,20 @@ namespace
 
 volatile std::sig_atomic_t StopRequested = 0; // set by a signal; nothing else can be reached from there
 
+/// A first signal stops the filter that runs, so that nothing half done stays behind; a second one kills.
+void StopOnSignals()
+{
+  for (const int signal : { SIGINT, SIGTERM })
+  {
+    std::signal(signal,
+      [](int number)
+      {
+        StopRequested = 1;
+        std::signal(number, SIG_DFL);
+      });
+  }
+}
+
 double Now()
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -272,13 +286,13 @@ void Run(Filter* filter, const CommandLine& line, vtkImageData* volume, const La
     const Progress progress(filter, line.Quiet);
     filter->Update();
   }
-  if (!messages.FirstError().empty())
-  {
-    Fail(messages.FirstError());
-  }
   if (StopRequested)
   {
     Fail("stopped; nothing was written");
+  }
+  if (!messages.FirstError().empty())
+  {
+    Fail(messages.FirstError());
   }
   if (filter->GetOutput()->GetNumberOfCells() == 0)
   {
@@ -327,6 +341,7 @@ void MeshVolume(const CommandLine& line)
     Fail(sentence.compare(0, 3, "it ") == 0 ? "cannot mesh '" + line.Input + "': " + sentence : sentence);
   }
   report.Seconds.emplace_back("Read", Now() - start);
+  StopOnSignals();
 
   vtkNew<vtkLabelMesher> mesher;
   vtkNew<vtkGridLabelMesh> grid;
@@ -374,6 +389,10 @@ void MeshVolume(const CommandLine& line)
     report.LabelArray = labels.Array->GetName();
     files.WriteText(line.Report, JsonReport(report));
   }
+  if (StopRequested)
+  {
+    Fail("stopped; nothing was written");
+  }
   files.Commit();
 }
 }
@@ -392,10 +411,6 @@ int main(int argc, char** argv)
     {
       std::cout << "labelmesh " << LABELMESH_VERSION << "\n";
       return 0;
-    }
-    for (const int signal : { SIGINT, SIGTERM })
-    {
-      std::signal(signal, [](int) { StopRequested = 1; });
     }
     SilenceVtk();
     MeshVolume(line);
