@@ -1,0 +1,318 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the command line: what it writes, and what it says when it cannot."""
+import gzip
+import json
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOXML import (vtkXMLImageDataWriter, vtkXMLPartitionedDataSetCollectionReader,
+                                 vtkXMLPolyDataReader)
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "Data"))
+import make_volumes  # noqa: E402
+
+LABELMESH = os.environ["LABELMESH_EXECUTABLE"]
+SPHERES = make_volumes.two_spheres(32)
+
+
+def read_mesh(path):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def points_of(path):
+    return vtk_to_numpy(read_mesh(path).GetPoints().GetData())
+
+
+def write_nifti(path, labels, sform, qfac=1.0, cut=0):
+    """A minimal NIfTI-1 file."""
+    header = bytearray(352)
+    struct.pack_into("<i", header, 0, 348)
+    struct.pack_into("<8h", header, 40, 3, *labels.shape[::-1], 1, 1, 1, 1)
+    struct.pack_into("<2h", header, 70, 2, 8)
+    spacing = np.linalg.norm(np.array(sform, float)[:, :3], axis=0)
+    struct.pack_into("<8f", header, 76, qfac, *spacing, 1, 1, 1, 1)
+    struct.pack_into("<2f", header, 108, 352, 1)
+    struct.pack_into("<2h", header, 252, 0, 1)
+    struct.pack_into("<12f", header, 280, *np.ravel(sform))
+    header[344:348] = b"n+1\0"
+    data = bytes(header) + labels.tobytes()
+    data = gzip.compress(data) if str(path).endswith(".gz") else data
+    Path(path).write_bytes(data[:len(data) - cut])
+
+
+def write_nrrd(path, labels, fields, encoding="gzip", cut=0):
+    data = labels.tobytes()
+    data = gzip.compress(data) if encoding == "gzip" else data
+    sizes = " ".join(str(n) for n in labels.shape[::-1])
+    header = f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: {sizes}\n{fields}encoding: {encoding}\n\n"
+    Path(path).write_bytes((header.encode() + data)[:len(header) + len(data) - cut])
+
+
+def write_vti(path, array, name="Labels"):
+    image = vtkImageData()
+    image.SetDimensions(*array.shape[2::-1])
+    scalars = numpy_to_vtk(array.reshape(-1, *array.shape[3:]), deep=True)
+    scalars.SetName(name)
+    image.GetPointData().AddArray(scalars)
+    writer = vtkXMLImageDataWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(image)
+    writer.Write()
+
+
+class CommandLineTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(dir=os.environ.get("LABELMESH_OUTPUT")))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.spheres = self.folder / "spheres.mha"
+        make_volumes.write_mha(self.spheres, SPHERES)
+
+    def run_tool(self, *arguments):
+        return subprocess.run([LABELMESH, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                              timeout=120)
+
+    def mesh(self, *arguments):
+        """Runs it and expects success without a word on standard output."""
+        result = self.run_tool(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, "")
+        return result
+
+    def refuse(self, words, *arguments):
+        """Expects one line on standard error, exit status 1, and no new file."""
+        before = sorted(self.folder.rglob("*"))
+        result = self.run_tool(*arguments)
+        self.assertEqual(result.returncode, 1, f"{arguments}: {result.stderr}")
+        self.assertEqual(len(result.stderr.splitlines()), 1, f"{arguments}: {result.stderr}")
+        self.assertTrue(result.stderr.startswith("labelmesh: "), result.stderr)
+        self.assertIn(words, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(sorted(self.folder.rglob("*")), before, arguments)
+
+
+class TestOutput(CommandLineTest):
+    def test_all_files(self):
+        self.mesh(self.spheres, "-o", "mesh.vtp", "--surfaces", "parts.vtpc", "--particles", "particles.vtp",
+                  "--report", "report.json", "--material", "1:name=upper,color=#ff8000,radius=0.8", "--quiet")
+        mesh = read_mesh(self.folder / "mesh.vtp")
+        labels = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))
+        self.assertEqual({tuple(pair) for pair in labels}, {(1, 0), (2, 0), (1, 2)})
+        report = json.loads((self.folder / "report.json").read_text())
+        self.assertEqual(report["triangles"], mesh.GetNumberOfCells())
+        self.assertEqual(report["points"], mesh.GetNumberOfPoints())
+        self.assertEqual(report["dimensions"], [32, 32, 32])
+        self.assertEqual(report["method"], "particle")
+        self.assertGreater(report["min_radius_ratio"], 0.3)
+        self.assertEqual([m["label"] for m in report["materials"]], [1, 2])
+        self.assertEqual(report["materials"][0]["name"], "upper")
+        for material in report["materials"]:
+            self.assertTrue(material["closed"] and material["manifold"])
+            self.assertEqual((material["components"], material["euler"]), (1, 2))
+            self.assertAlmostEqual(material["volume"] / material["voxel_volume"], 1, delta=0.15)
+        particles = read_mesh(self.folder / "particles.vtp")
+        dimensions = vtk_to_numpy(particles.GetPointData().GetArray("CellDimension"))
+        self.assertEqual([report["cells"][str(d)] for d in range(3)], [int((dimensions == d).sum()) for d in range(3)])
+        self.assertEqual(report["lost"], [])
+        self.assertIn("Tighten", report["seconds"])
+        self.assertGreater(report["seconds"]["total"], report["seconds"]["Tighten"])
+        self.assertGreater(report["peak_memory_bytes"], 1 << 20)
+        reader = vtkXMLPartitionedDataSetCollectionReader()
+        reader.SetFileName(str(self.folder / "parts.vtpc"))
+        reader.Update()
+        self.assertEqual(reader.GetOutput().GetNumberOfPartitionedDataSets(), 2)
+        self.assertEqual(reader.GetOutput().GetPartition(0, 0).GetNumberOfCells(), report["materials"][0]["triangles"])
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
+                         ["mesh.vtp", "particles.vtp", "parts", "parts.vtpc", "report.json", "spheres.mha"])
+
+    def test_same_bytes_for_any_number_of_threads(self):
+        for threads in (1, 2):
+            self.mesh(self.spheres, "-o", f"{threads}.vtp", "--threads", threads, "--quiet")
+        self.assertEqual((self.folder / "1.vtp").read_bytes(), (self.folder / "2.vtp").read_bytes())
+
+    def test_grid_method(self):
+        self.mesh(self.spheres, "-o", "grid.vtp", "--method", "grid", "--triangles", 800, "--report", "grid.json")
+        report = json.loads((self.folder / "grid.json").read_text())
+        self.assertEqual(report["method"], "grid")
+        self.assertAlmostEqual(report["triangles"], 800, delta=20)
+        self.assertNotIn("cells", report)
+
+    def test_files_of_earlier_runs_are_replaced_and_others_kept(self):
+        (self.folder / "s").mkdir()
+        (self.folder / "s" / "notes.txt").write_text("mine")
+        (self.folder / "s" / "s_7_0.vtp").write_text("of an earlier run")
+        (self.folder / "s.vtpc").write_text("of an earlier run")
+        self.mesh(self.spheres, "--surfaces", "s.vtpc", "--quiet")
+        self.assertEqual(sorted(p.name for p in (self.folder / "s").iterdir()),
+                         ["notes.txt", "s_0_0.vtp", "s_1_0.vtp"])
+        self.assertIn("s/s_1_0.vtp", (self.folder / "s.vtpc").read_text())
+
+    def test_labels_background_and_losses(self):
+        labels = SPHERES.copy()
+        labels[2, 2, 2] = 9
+        make_volumes.write_mha(self.folder / "speck.mha", labels)
+        self.mesh("speck.mha", "-o", "m.vtp", "--report", "r.json", "--quiet")
+        lost = json.loads((self.folder / "r.json").read_text())["lost"]
+        self.assertEqual([entry["label"] for entry in lost if "label" in entry], [9])
+        self.assertEqual(lost[0]["stage"], "Tighten")
+        self.mesh("speck.mha", "-o", "m.vtp", "--report", "r.json", "--labels", "2", "--quiet")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual([m["label"] for m in report["materials"]], [2])
+        self.assertEqual(report["lost"], [])
+
+    def test_one_foreground_label_that_fills_the_volume(self):
+        make_volumes.write_mha(self.folder / "full.mha", np.full((20, 20, 20), 3, np.uint8))
+        self.mesh("full.mha", "-o", "m.vtp", "--report", "r.json", "--quiet")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertTrue(report["materials"][0]["closed"])
+        self.assertAlmostEqual(report["materials"][0]["volume"] / 8000, 1, delta=0.1)
+
+    def test_progress_and_help(self):
+        result = self.mesh(self.spheres, "-o", "m.vtp")
+        for stage in ("LabelSplit", "Tighten", "DelaunayLabelMesh"):
+            self.assertIn(stage, result.stderr)
+        result = self.run_tool("--help")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("--epsilon", result.stdout)
+        self.assertRegex(self.run_tool("--version").stdout, r"^labelmesh \d+\.\d+\.\d+\n$")
+
+
+class TestInput(CommandLineTest):
+    def test_orientation_of_every_format(self):
+        """The same volume, turned and scaled in the same way, in three formats: the same mesh in the world."""
+        turned = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]], float)
+        spacing, origin = np.array([1.0, 1.5, 0.75]), np.array([10.0, 20, 30])
+        make_volumes.write_mha(self.folder / "a.mha", SPHERES, spacing, origin, turned)
+        axes = (turned * spacing).T
+        rows = " ".join("(" + ",".join(str(x) for x in axis) + ")" for axis in axes)
+        fields = f"space: left-posterior-superior\nspace directions: {rows}\nspace origin: (10,20,30)\n"
+        write_nrrd(self.folder / "b.nrrd", SPHERES, fields)
+        write_nrrd(self.folder / "c.nrrd", SPHERES, fields, "raw")
+        sform = np.column_stack([turned * spacing, origin])
+        write_nifti(self.folder / "d.nii", SPHERES, sform)
+        write_nifti(self.folder / "e.nii.gz", SPHERES, sform)
+        meshes = []
+        for name in ("a.mha", "b.nrrd", "c.nrrd", "d.nii", "e.nii.gz"):
+            self.mesh(name, "-o", name + ".vtp", "--report", name + ".json", "--quiet")
+            meshes.append(points_of(self.folder / (name + ".vtp")))
+            volume = json.loads((self.folder / (name + ".json")).read_text())["materials"][0]["volume"]
+            self.assertGreater(volume, 0)
+        for points in meshes[1:]:
+            np.testing.assert_allclose(points, meshes[0], atol=1e-4)
+        centre = origin + turned @ (spacing * np.array([63.3, 64.2, 78.1]) / 4)
+        low, high = meshes[0].min(axis=0), meshes[0].max(axis=0)
+        self.assertTrue(np.all(low < centre) and np.all(centre < high))
+
+    def test_mirrored(self):
+        make_volumes.write_mha(self.folder / "a.mha", SPHERES, direction=np.diag([1.0, 1, -1]))
+        write_nifti(self.folder / "b.nii", SPHERES, [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])
+        for name in ("a.mha", "b.nii"):
+            self.mesh(name, "-o", "m.vtp", "--report", "r.json", "--quiet")
+            materials = json.loads((self.folder / "r.json").read_text())["materials"]
+            self.assertTrue(all(m["volume"] > 0 and m["oriented"] for m in materials), name)
+
+    def test_vti_with_an_array_that_is_not_active(self):
+        write_vti(self.folder / "a.vti", SPHERES.astype(np.int64))
+        self.mesh("a.vti", "-o", "a.vtp", "--quiet")
+        self.mesh(self.spheres, "-o", "b.vtp", "--quiet")
+        np.testing.assert_array_equal(points_of(self.folder / "a.vtp"), points_of(self.folder / "b.vtp"))
+        write_vti(self.folder / "f.vti", SPHERES.astype(np.float32))
+        self.mesh("f.vti", "-o", "f.vtp", "--quiet")
+        np.testing.assert_array_equal(points_of(self.folder / "f.vtp"), points_of(self.folder / "b.vtp"))
+
+
+class TestRefusals(CommandLineTest):
+    def test_command_lines(self):
+        mesh = ("-o", "m.vtp")
+        self.refuse("no input file")
+        self.refuse("nothing to write", self.spheres)
+        self.refuse("no file 'gone.mha'", "gone.mha", *mesh)
+        self.refuse("no option --bogus", self.spheres, *mesh, "--bogus", "1")
+        self.refuse("needs a value", self.spheres, "-o")
+        self.refuse("needs a number", self.spheres, *mesh, "--radius", "wide")
+        self.refuse("at least", self.spheres, *mesh, "--radius", "-1")
+        self.refuse("particle or grid", self.spheres, *mesh, "--method", "magic")
+        self.refuse("surfaces only", self.spheres, *mesh, "--tets", "t.vtu")
+        self.refuse("writes a .vtp file", self.spheres, "-o", "m.stl")
+        self.refuse("no folder 'gone'", self.spheres, "-o", "gone/m.vtp")
+        self.refuse("named twice", self.spheres, "-o", "m.vtp", "--particles", "m.vtp")
+        self.refuse("two input files", self.spheres, self.spheres, *mesh)
+        self.refuse("names label 7", self.spheres, *mesh, "--labels", "1,7")
+        self.refuse("names label 7", self.spheres, *mesh, "--material", "7:radius=1")
+        self.refuse("is none of", self.spheres, *mesh, "--material", "1:size=1")
+        self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--epsilon", "0.4")
+        self.refuse("larger than", self.spheres, *mesh, "--min-length", "3", "--max-length", "2")
+
+    def test_broken_files(self):
+        mesh = ("-o", "m.vtp")
+        whole = self.spheres.read_bytes()
+        (self.folder / "cut.mha").write_bytes(whole[:-200])
+        (self.folder / "headless.mhd").write_bytes(whole.split(b"LOCAL")[0] + b"gone.raw\n")
+        (self.folder / "text.mha").write_text("hello\n")
+        (self.folder / "empty.mha").write_bytes(b"")
+        (self.folder / "text.vti").write_text("hello\n")
+        (self.folder / "volume.txt").write_text("hello\n")
+        sform = np.eye(4)[:3]
+        write_nifti(self.folder / "cut.nii", SPHERES, sform, cut=1000)
+        write_nifti(self.folder / "cut.nii.gz", SPHERES, sform, cut=100)
+        write_nrrd(self.folder / "cut.nrrd", SPHERES, "spacings: 1 1 1\n", cut=100)
+        write_nrrd(self.folder / "cutraw.nrrd", SPHERES, "spacings: 1 1 1\n", "raw", cut=100)
+        for name in ("cut.mha", "headless.mhd", "text.mha", "empty.mha", "text.vti", "volume.txt", "cut.nii",
+                     "cut.nii.gz", "cut.nrrd", "cutraw.nrrd"):
+            self.refuse(f"'{name}'", name, *mesh)
+        self.refuse("cannot be opened", self.folder, *mesh)
+
+    def test_unsuitable_volumes(self):
+        mesh = ("-o", "m.vtp", "--surfaces", "s.vtpc", "--report", "r.json")
+        make_volumes.write_mha(self.folder / "flat.mha", SPHERES[16:17])
+        self.refuse("32 x 32 x 1", "flat.mha", *mesh)
+        write_vti(self.folder / "fractions.vti", SPHERES + 0.25)
+        self.refuse("integer label is expected", "fractions.vti", *mesh)
+        write_vti(self.folder / "vectors.vti", np.stack([SPHERES] * 3, axis=-1))
+        self.refuse("no array of labels", "vectors.vti", *mesh)
+        make_volumes.write_mha(self.folder / "blank.mha", np.zeros((16, 16, 16), np.uint8))
+        self.refuse("nothing to mesh", "blank.mha", *mesh)
+        self.refuse("nothing to mesh", self.spheres, *mesh, "--labels", "0")
+        image = vtkImageData()
+        writer = vtkXMLImageDataWriter()
+        writer.SetFileName(str(self.folder / "none.vti"))
+        writer.SetInputData(image)
+        writer.Write()
+        self.refuse("none.vti", "none.vti", *mesh)
+        (self.folder / "skew.nrrd").write_bytes(b"")
+        write_nrrd(self.folder / "skew.nrrd", SPHERES, "space dimension: 3\nspace directions: (1,0,0) (1,1,0) (0,0,1)\n")
+        self.refuse("right angles", "skew.nrrd", *mesh)
+
+    def test_stopped(self):
+        big = self.folder / "big.mha"
+        make_volumes.write_mha(big, make_volumes.two_spheres(160))
+        process = subprocess.Popen([LABELMESH, big, "-o", "m.vtp"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        for line in process.stderr:
+            if "Tighten" in line:
+                process.send_signal(signal.SIGINT)
+                break
+        start = time.monotonic()
+        rest = process.stderr.read()
+        self.assertEqual(process.wait(timeout=60), 1)
+        self.assertLess(time.monotonic() - start, 10)
+        self.assertIn("stopped", rest)
+        process.stderr.close()
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["big.mha", "spheres.mha"])
+
+
+if __name__ == "__main__":
+    unittest.main()
