@@ -12,7 +12,7 @@ namespace LabelMesh
 namespace
 {
 constexpr double IterationTime = 0.2; // voxels squared of curvature flow in one iteration
-constexpr double LargestRadius = 32;  // voxels: beyond it the band is no longer narrow
+constexpr double LargestRadius = 10;  // voxels: the work of the bounds grows with its cube
 
 void Check(const TightenOptions& options)
 {
@@ -30,28 +30,6 @@ void Check(const TightenOptions& options)
     throw std::invalid_argument(
       "The narrow band is " + std::to_string(options.Band) + " voxels wide; later stages need 2 at least.");
   }
-}
-
-/// Bound of the flow: the opening (radius > 0) or the closing (radius < 0) by a ball, as a distance, packed.
-/// `original` is what phi was, and is again.  An opening is never larger than the original, a closing never smaller;
-/// where features are as thin as the samples are apart, re-distancing alone would not see to that.
-std::vector<float> OpeningOrClosing(NarrowBand& band, const std::vector<float>& original, double radius, double reach)
-{
-  band.Shift(-radius);
-  band.Redistance(reach, true);
-  band.Shift(radius);
-  band.Redistance(reach);
-  std::vector<float> bound = band.Pack();
-  band.Unpack(original);
-  ParallelFor(0, Index(bound.size()), 0,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        bound[i] = radius > 0 ? std::min(bound[i], original[i]) : std::max(bound[i], original[i]);
-      }
-    });
-  return bound;
 }
 }
 
@@ -75,10 +53,10 @@ TightenResult Tighten(const Lattice& frame, const float* mask, const TightenOpti
   if (options.Radius > 0)
   {
     monitor.Step(0.25, "Opening");
-    const std::vector<float> antialiased = band.Pack();
-    const std::vector<float> opening = OpeningOrClosing(band, antialiased, options.Radius, reach);
+    band.MeasureDistance(NarrowBand::BallReach(options.Radius));
+    const std::vector<float> opening = band.Opening(options.Radius);
     monitor.Step(0.45, "Closing");
-    const std::vector<float> closing = OpeningOrClosing(band, antialiased, -options.Radius, reach);
+    const std::vector<float> closing = band.Closing(options.Radius);
     monitor.Step(0.65, "Tightening");
     band.SmoothBetween(IterationTime * options.TightenIterations, opening, closing);
     monitor.Step(0.85, "Re-distancing");

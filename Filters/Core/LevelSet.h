@@ -32,6 +32,8 @@ struct TightenResult
 /// 3. Tightening (Williams and Rossignac 2005): the opening and the closing by a ball of Radius are bounds between
 /// which
 ///    curvature flow runs: only the mortar, which is between them, changes, and |mean curvature| <= 1 / Radius.
+///    The bounds are unions of balls (NarrowBand::Opening); corners lose up to a quarter of a voxel more than the ball
+///    asks.
 /// 4. Re-distancing.
 /// Spacing enters every step; with unequal spacings an iteration is cut into as many stable steps as it needs.
 ///

@@ -2,6 +2,7 @@
 #include "NarrowBand.h"
 
 #include "Parallel.h"
+#include "ZeroCrossing.h"
 
 #include <numeric>
 
@@ -99,42 +100,6 @@ void UpwindStep(const float* __restrict phi, float* __restrict to, const float* 
     const float gx = rise(1, ix), gy = rise(y, iy), gz = rise(z, iz);
     to[i] = p[0] + step * s * (1.0f - std::sqrt(gx * gx + gy * gy + gz * gz));
   }
-}
-
-/// Squared slope along an axis for the distance to the zero set; `crosses` becomes true when the zero set lies between
-/// the sample and a neighbour. There the difference across the zero set keeps it where it is; elsewhere the central
-/// one.
-float SquaredSlope(float before, float here, float after, float inverse, bool& crosses)
-{
-  const bool first = (before > 0) != (here > 0), second = (after > 0) != (here > 0);
-  const float back = std::abs(here - before), ahead = std::abs(after - here);
-  crosses = crosses || first || second;
-  const float slope = first && second ? std::max(back, ahead)
-    : first                           ? back
-    : second                          ? ahead
-                                      : 0.5f * std::abs(after - before);
-  return slope * slope * inverse * inverse;
-}
-
-/// True when phi, below zero at p[0] and p[step], rises above it between them, as the slopes before and after them say.
-/// `sign` turns it over.
-bool RidgeBetween(const float* p, Index step, float sign)
-{
-  const float here = sign * p[0], next = sign * p[step];
-  const float up = here - sign * p[-step], down = next - sign * p[2 * step];
-  if (here > 0 || next > 0 || up <= 0 || down <= 0)
-  {
-    return false;
-  }
-  const float t = (next - here + down) / (up + down); // where the two slopes meet, in samples
-  return t >= 0 && t <= 1 && here + up * t > 0;
-}
-
-bool BesideRidge(const float* p, Index y, Index z)
-{
-  const float sign = p[0] > 0 ? -1.0f : 1.0f;
-  return RidgeBetween(p, 1, sign) || RidgeBetween(p, -1, sign) || RidgeBetween(p, y, sign) ||
-    RidgeBetween(p, -y, sign) || RidgeBetween(p, z, sign) || RidgeBetween(p, -z, sign);
 }
 
 Lattice GrownInVoxels(const Lattice& frame)
@@ -268,30 +233,6 @@ void NarrowBand::FindGhosts()
   }
 }
 
-template <typename Body>
-void NarrowBand::ForRuns(Body&& body) const
-{
-  ParallelFor(0, Index(this->Chunks.size()) - 1, 0,
-    [&](Index first, Index last)
-    {
-      for (Index r = this->Chunks[first]; r < this->Chunks[last]; ++r)
-      {
-        body(this->Runs[r]);
-      }
-    });
-}
-
-template <typename Body>
-void NarrowBand::Advance(Body&& body)
-{
-  this->ForRuns(body);
-  for (const Ghost& ghost : this->Ghosts)
-  {
-    this->Next[ghost.To] = this->Next[ghost.From];
-  }
-  this->Phi.swap(this->Next);
-}
-
 template <typename Clamp>
 void NarrowBand::Smooth(double time, Clamp&& clamp)
 {
@@ -332,11 +273,9 @@ void NarrowBand::SmoothBetween(double time, const std::vector<float>& lower, con
     });
 }
 
-void NarrowBand::FindTargets(bool ridges)
+void NarrowBand::FindTargets()
 {
-  const Index y = this->Frame.Dims[0], z = y * this->Frame.Dims[1];
-  const float ix = float(1 / this->Frame.Spacing[0]), iy = float(1 / this->Frame.Spacing[1]),
-              iz = float(1 / this->Frame.Spacing[2]);
+  const ZeroCrossing crossing(this->Frame);
   this->Signs.resize(static_cast<std::size_t>(this->Active));
   this->Advance(
     [&](const Run& run)
@@ -344,23 +283,22 @@ void NarrowBand::FindTargets(bool ridges)
       for (Index i = 0; i < run.Count; ++i)
       {
         const float* p = this->Phi.data() + run.First + i;
-        bool crosses = false;
-        const float slope2 = SquaredSlope(p[-1], p[0], p[1], ix, crosses) +
-          SquaredSlope(p[-y], p[0], p[y], iy, crosses) + SquaredSlope(p[-z], p[0], p[z], iz, crosses);
-        this->Next[run.First + i] = crosses && slope2 > 0 ? p[0] / std::sqrt(slope2) : p[0];
-        const bool holds = crosses || (ridges && BesideRidge(p, y, z));
-        this->Signs[run.Packed + i] = holds ? 0.0f : p[0] > 0 ? 1.0f : -1.0f;
+        float slopes[3];
+        const bool beside = crossing.Slopes(p, slopes);
+        const float slope2 = slopes[0] * slopes[0] + slopes[1] * slopes[1] + slopes[2] * slopes[2];
+        this->Next[run.First + i] = beside && slope2 > 0 ? p[0] / std::sqrt(slope2) : p[0];
+        this->Signs[run.Packed + i] = beside ? 0.0f : p[0] > 0 ? 1.0f : -1.0f;
       }
     });
 }
 
-void NarrowBand::Redistance(double reach, bool ridges)
+void NarrowBand::Redistance(double reach)
 {
   const Vec3 inverse = this->Frame.Spacing.cwiseInverse();
   const float scales[3] = { float(inverse[0]), float(inverse[1]), float(inverse[2]) };
   const TimeSteps steps(reach, 1.5 / inverse.sum());
   const Index y = this->Frame.Dims[0], z = y * this->Frame.Dims[1];
-  this->FindTargets(ridges);
+  this->FindTargets();
   for (int step = 0; step < steps.Count; ++step)
   {
     this->Advance(
@@ -372,31 +310,12 @@ void NarrowBand::Redistance(double reach, bool ridges)
   }
 }
 
-void NarrowBand::Shift(double offset)
-{
-  const float by = float(offset);
-  this->Advance(
-    [&](const Run& run)
-    {
-      for (Index i = run.First; i < run.First + run.Count; ++i)
-      {
-        this->Next[i] = this->Phi[i] + by;
-      }
-    });
-}
-
 std::vector<float> NarrowBand::Pack() const
 {
   std::vector<float> packed(static_cast<std::size_t>(this->Active));
   this->ForRuns(
     [&](const Run& run) { std::copy_n(this->Phi.data() + run.First, run.Count, packed.data() + run.Packed); });
   return packed;
-}
-
-void NarrowBand::Unpack(const std::vector<float>& packed)
-{
-  this->Advance(
-    [&](const Run& run) { std::copy_n(packed.data() + run.Packed, run.Count, this->Next.data() + run.First); });
 }
 
 double NarrowBand::Volume() const

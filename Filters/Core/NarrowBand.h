@@ -5,6 +5,7 @@
 
 #include "DistanceTransform.h"
 #include "Lattice.h"
+#include "Parallel.h"
 
 #include <vector>
 
@@ -34,16 +35,24 @@ public:
   /// Makes phi a distance again up to `reach` voxels from its zero set, which stays where it is: samples beside it get
   /// their distance to the plane through it (the subcell fix of Russo and Smereka), the others follow
   /// phi_t = sign(phi) (1 - |grad phi|), upwind.
-  /// `ridges`: phi is a distance shifted by a constant, and a sheet of the zero set that is too thin to hold a sample
-  /// is still there when the slopes of phi on both sides of it say so. Without it an erosion loses plates two voxels
-  /// thick.
-  void Redistance(double reach, bool ridges = false);
-  /// phi += offset, on active samples.
-  void Shift(double offset);
+  void Redistance(double reach);
+  /// phi within `reach` voxels of the zero set becomes the distance to it, taken as one small disc for each sample
+  /// beside it. More work than Redistance, which is first order and comes out up to a voxel too small at the medial
+  /// axis.
+  void MeasureDistance(double reach);
 
-  /// The active samples, one after another, and back.
+  /// The opening of {phi > 0} by a ball of `radius` voxels as a lower bound of phi, packed: the union of the balls that
+  /// fit inside and are no smaller, O(x) = max of phi(y) - |x - y| over the y with phi(y) >= radius. Such y are
+  /// samples, and points between two samples where the slopes of phi on both sides meet, so that plates two voxels
+  /// thick keep theirs. Where O differs from phi by less than the samples' coarseness explains (0.1 for cubic voxels),
+  /// it is phi. phi must be a distance, up to BallReach(radius) from the zero set.
+  std::vector<float> Opening(double radius) const;
+  static double BallReach(double radius) { return radius + 1.7; }
+  /// The same of -phi, turned over: the closing as an upper bound.
+  std::vector<float> Closing(double radius) const;
+
+  /// The active samples, one after another.
   std::vector<float> Pack() const;
-  void Unpack(const std::vector<float>& packed);
 
   /// Volume inside the zero set in voxels (of volume one): samples beside it count by the part of them that lies
   /// inside.
@@ -65,15 +74,37 @@ private:
     Index From = 0;
   };
 
+  std::vector<float> UnionOfBalls(double radius, float sign) const;
   void FindRuns();
   void FindGhosts();
-  void FindTargets(bool ridges);
+  void FindTargets();
+  struct Disc;
+  class DiscStamp;
+  std::vector<std::vector<Disc>> FindDiscs() const;
   /// Calls body(run) for every run, in parallel.
   template <typename Body>
-  void ForRuns(Body&& body) const;
+  void ForRuns(Body&& body) const
+  {
+    ParallelFor(0, Index(this->Chunks.size()) - 1, 0,
+      [&](Index first, Index last)
+      {
+        for (Index r = this->Chunks[first]; r < this->Chunks[last]; ++r)
+        {
+          body(this->Runs[r]);
+        }
+      });
+  }
   /// One step of the flow: body(run) writes Next; then it becomes Phi.
   template <typename Body>
-  void Advance(Body&& body);
+  void Advance(Body&& body)
+  {
+    this->ForRuns(body);
+    for (const Ghost& ghost : this->Ghosts)
+    {
+      this->Next[ghost.To] = this->Next[ghost.From];
+    }
+    this->Phi.swap(this->Next);
+  }
   template <typename Clamp>
   void Smooth(double time, Clamp&& clamp);
 
