@@ -17,7 +17,7 @@ inline constexpr double GapDistance = 0.8;      ///< a candidate farther from al
 inline constexpr double ProtectionFactor = 1.05; ///< of the diametral ball of each 1-cell segment
 
 /// One particle on the interface per label-changing edge of the working lattice, more where the target length is
-/// shorter than a voxel, in a random order that depends on `seed` alone.
+/// shorter than a voxel, in an order that is random and depends on `seed` alone.
 std::vector<Particle> InterfaceCandidates(const IndicatorSet& indicators, const Grid<float>& targetLength, std::uint32_t seed);
 
 /// The diametral balls of the segments of 1-cells, which must hold no 2-cell particle for the segment to be an edge of
