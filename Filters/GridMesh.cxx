@@ -183,8 +183,8 @@ std::vector<Patch> PatchesOf(const Index* first, const Index* last, const Triang
     {
       for (auto at = left.begin(); at != left.end();)
       {
-        const bool joins = triangles[*at].Materials[0] == patch.Inside &&
-          ShareAnEdge(triangles[*at], triangles[patch.Members[m]]);
+        const bool joins =
+          triangles[*at].Materials[0] == patch.Inside && ShareAnEdge(triangles[*at], triangles[patch.Members[m]]);
         if (joins)
         {
           patch.Members.push_back(*at);
@@ -208,8 +208,8 @@ Triangles MatchPatches(const Triangles& triangles, const std::vector<Vec3>& poin
   {
     const auto& v = triangles[t].Vertices;
     const Vec3 centre = (points[v[0]] + points[v[1]] + points[v[2]]) / 3.0;
-    byCell.push_back({ { Index(std::floor(centre[2])), Index(std::floor(centre[1])), Index(std::floor(centre[0])) },
-      Index(t) });
+    byCell.push_back(
+      { { Index(std::floor(centre[2])), Index(std::floor(centre[1])), Index(std::floor(centre[0])) }, Index(t) });
   }
   std::sort(byCell.begin(), byCell.end());
   Triangles matched;
@@ -244,8 +244,8 @@ Triangles MatchPatches(const Triangles& triangles, const std::vector<Vec3>& poin
   return matched;
 }
 
-/// Replaces triangles on the same three points by their sum: (a, background) and, turned, (b, background) are (a, b), and
-/// a triangle and the same one turned are nothing. What does not sum up to one triangle stays.
+/// Replaces triangles on the same three points by their sum: (a, background) and, turned, (b, background) are (a, b),
+/// and a triangle and the same one turned are nothing. What does not sum up to one triangle stays.
 Triangles MergeCoincident(const Triangles& triangles)
 {
   std::vector<std::pair<std::array<Index, 3>, Index>> byPoints;
@@ -346,8 +346,8 @@ std::vector<Vec3> Smoothed(const std::vector<Vec3>& points, const Triangles& tri
   return PointsOf(smooth->GetOutput());
 }
 
-/// vtkQuadricDecimation forgets cell data, but keeps the order of the cells that it leaves. So the triangles go in sorted
-/// by their pair, with a marker between any two pairs: a huge triangle far away, which is never collapsed.
+/// vtkQuadricDecimation forgets cell data, but keeps the order of the cells that it leaves. So the triangles go in
+/// sorted by their pair, with a marker between any two pairs: a huge triangle far away, which is never collapsed.
 class MarkedDecimation
 {
 public:
@@ -364,7 +364,8 @@ public:
     vtkNew<vtkQuadricDecimation> decimate;
     decimate->SetInputData(this->MarkedInput());
     const double markers = double(this->Pairs.size() - 1);
-    decimate->SetTargetReduction(std::clamp(1.0 - (double(target) + markers) / (double(this->All.size()) + markers), 0.0, 1.0));
+    decimate->SetTargetReduction(
+      std::clamp(1.0 - (double(target) + markers) / (double(this->All.size()) + markers), 0.0, 1.0));
     UpdateInner(decimate, filter, monitor, "Decimation");
     this->ReadBack(decimate->GetOutput());
   }
@@ -455,8 +456,8 @@ InterfaceMesh WithMaterialSets(const std::vector<Vec3>& points, const Triangles&
 InterfaceMesh MeshGrid(const LabelImage& image, MaterialId background, const GridMeshOptions& options,
   vtkAlgorithm* filter, const Monitor& monitor)
 {
-  const auto surfaces = LabelSurfaces(
-    PaddedIds(image, background), background, int(image.Labels.size()), filter, monitor.Part(0.0, 0.3));
+  const auto surfaces =
+    LabelSurfaces(PaddedIds(image, background), background, int(image.Labels.size()), filter, monitor.Part(0.0, 0.3));
   std::vector<Vec3> points = PointsOf(surfaces);
   Triangles triangles = OneSidedTriangles(surfaces, points, background);
   triangles = MergeCoincident(MatchPatches(triangles, points));

@@ -74,8 +74,8 @@ struct IdWorker
     }
     if (found.size() >= NoMaterial)
     {
-      throw std::invalid_argument("has " + std::to_string(found.size()) + " labels, at most " +
-        std::to_string(NoMaterial - 1) + " are possible");
+      throw std::invalid_argument(
+        "has " + std::to_string(found.size()) + " labels, at most " + std::to_string(NoMaterial - 1) + " are possible");
     }
     std::vector<Label>& labels = this->Image->Labels;
     labels.assign(found.begin(), found.end());

@@ -106,14 +106,13 @@ vtkSmartPointer<Array> As(vtkDataArray* array)
   return copy;
 }
 
-vtkDataArray* RequiredArray(
-  vtkFieldData* data, const char* kind, const char* name, int components, const char* origin)
+vtkDataArray* RequiredArray(vtkFieldData* data, const char* kind, const char* name, int components, const char* origin)
 {
   vtkDataArray* array = data->GetArray(name);
   if (!array)
   {
-    throw std::invalid_argument(std::string("The input has no ") + kind + " array '" + name +
-      "'. Connect the output of " + origin + ".");
+    throw std::invalid_argument(
+      std::string("The input has no ") + kind + " array '" + name + "'. Connect the output of " + origin + ".");
   }
   if (array->GetNumberOfComponents() != components)
   {
@@ -127,13 +126,14 @@ vtkDataArray* RequiredArray(
 /// Position of a label among materials that ascend by label; NoMaterial when it is not there.
 MaterialId FindMaterial(const std::vector<Material>& materials, Label label)
 {
-  const auto at = std::lower_bound(
-    materials.begin(), materials.end(), label, [](const Material& m, Label l) { return m.Label < l; });
+  const auto at =
+    std::lower_bound(materials.begin(), materials.end(), label, [](const Material& m, Label l) { return m.Label < l; });
   return at != materials.end() && at->Label == label ? MaterialId(at - materials.begin()) : NoMaterial;
 }
 
 /// The material set of every point. Throws when a label is unknown.
-std::vector<MaterialSet> ReadSets(vtkDataArray* numberArray, vtkDataArray* setArray, const std::vector<Material>& materials)
+std::vector<MaterialSet> ReadSets(
+  vtkDataArray* numberArray, vtkDataArray* setArray, const std::vector<Material>& materials)
 {
   const auto numbers = As<vtkTypeInt64Array>(numberArray);
   const auto labels = As<vtkTypeInt64Array>(setArray);
@@ -273,7 +273,8 @@ void AddMissingMaterials(const std::vector<Label>& pairs, std::vector<Material>&
   const std::size_t known = materials.size();
   for (const Label label : labels)
   {
-    if (std::none_of(materials.begin(), materials.begin() + known, [label](const Material& m) { return m.Label == label; }))
+    if (std::none_of(
+          materials.begin(), materials.begin() + known, [label](const Material& m) { return m.Label == label; }))
     {
       materials.push_back(DefaultMaterial(label));
     }
@@ -443,7 +444,7 @@ InterfaceData ReadInterface(vtkPolyData* mesh)
   InterfaceData data;
   const std::vector<std::array<Index, 3>> triangles = ReadTriangles(mesh);
   data.Materials = mesh->GetFieldData()->GetAbstractArray(Names::Labels) ? ReadMaterials(mesh->GetFieldData())
-                                                                          : std::vector<Material>();
+                                                                         : std::vector<Material>();
   if (vtkDataArray* background = mesh->GetFieldData()->GetArray(Names::BackgroundLabel))
   {
     data.Background = As<vtkTypeInt64Array>(background)->GetValue(0);

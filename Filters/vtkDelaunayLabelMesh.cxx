@@ -67,8 +67,11 @@ int vtkDelaunayLabelMesh::RequestData(
       this->NonManifoldEdges = result.NonManifoldEdges;
       if (result.WrongFaces > 0 || result.NonManifoldEdges > 0)
       {
-        vtkWarningMacro("The mesh has " << result.WrongFaces << " faces between materials that are not at all their "
-          "vertices and " << result.NonManifoldEdges << " non-manifold edges after " << result.Rounds
+        vtkWarningMacro("The mesh has "
+          << result.WrongFaces
+          << " faces between materials that are not at all their "
+             "vertices and "
+          << result.NonManifoldEdges << " non-manifold edges after " << result.Rounds
           << " rounds of repair. Finer sizing (Epsilon, FeatureSizeFloor) or more RepairRounds may help.");
       }
       InterfaceToPolyData(result.Mesh, header, output);

@@ -121,8 +121,7 @@ int vtkGridLabelMesh::FillOutputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
-int vtkGridLabelMesh::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+int vtkGridLabelMesh::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
   vtkInformation* info = inputVector[0]->GetInformationObject(0);
   if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
@@ -150,8 +149,8 @@ int vtkGridLabelMesh::RequestData(
       {
         int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
         vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
-        LabelImage image = LabelsToMesh(input, array, association == vtkDataObject::FIELD_ASSOCIATION_CELLS,
-          this->Labels, this->BackgroundLabel);
+        LabelImage image = LabelsToMesh(
+          input, array, association == vtkDataObject::FIELD_ASSOCIATION_CELLS, this->Labels, this->BackgroundLabel);
         header = HeaderOf(image, this->Labels, this->BackgroundLabel);
         UseIdsOf(header, image);
         const auto background = std::find_if(header.Materials.begin(), header.Materials.end(),

@@ -170,7 +170,8 @@ void AddVolumeColumn(vtkTable* table, const char* name, const std::vector<Materi
     });
 }
 
-void FillMaterials(vtkTable* table, const std::vector<MaterialRow>& rows, const ImageFacts& facts, vtkDataObject* stages)
+void FillMaterials(
+  vtkTable* table, const std::vector<MaterialRow>& rows, const ImageFacts& facts, vtkDataObject* stages)
 {
   AddColumn<vtkTypeInt64Array>(table, "Label", rows, [](const MaterialRow& r) { return r.Material.Label; });
   AddColumn<vtkStringArray>(table, "Name", rows, [](const MaterialRow& r) { return r.Material.Name; });
@@ -232,9 +233,10 @@ void FillPairs(vtkTable* table, const InterfaceData& mesh, const MeshCheck& chec
 
 void AddTotals(vtkFieldData* fieldData, const MeshCheck& check)
 {
-  const std::pair<const char*, Index> counts[] = { { "Points", check.Vertices }, { "Triangles", check.Quality.Triangles },
-    { "DuplicateTriangles", check.DuplicateTriangles }, { "DegenerateTriangles", check.DegenerateTriangles },
-    { "SameLabelTriangles", check.SameMaterialTriangles }, { "WrongFaces", check.WrongFaces } };
+  const std::pair<const char*, Index> counts[] = { { "Points", check.Vertices },
+    { "Triangles", check.Quality.Triangles }, { "DuplicateTriangles", check.DuplicateTriangles },
+    { "DegenerateTriangles", check.DegenerateTriangles }, { "SameLabelTriangles", check.SameMaterialTriangles },
+    { "WrongFaces", check.WrongFaces } };
   for (const auto& count : counts)
   {
     vtkNew<vtkTypeInt64Array> array;

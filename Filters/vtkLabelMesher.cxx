@@ -255,8 +255,7 @@ int vtkLabelMesher::RequestUpdateExtent(vtkInformation*, vtkInformationVector** 
   return 1;
 }
 
-int vtkLabelMesher::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using namespace LabelMesh;
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);

@@ -43,8 +43,8 @@ Grid<float> ReadLengths(vtkImageData* image, const GridFrame& source)
     const double length = array->GetComponent(at, 0);
     if (!(length > 0))
     {
-      throw std::invalid_argument(std::string("The array '") + Names::TargetLength + "' holds " + std::to_string(length) +
-        " at sample " + std::to_string(at) + ", expected positive lengths.");
+      throw std::invalid_argument(std::string("The array '") + Names::TargetLength + "' holds " +
+        std::to_string(length) + " at sample " + std::to_string(at) + ", expected positive lengths.");
     }
     lengths.Values[at] = float(length);
   }

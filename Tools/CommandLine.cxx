@@ -144,8 +144,7 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--min-length", number(line.MinimumLength, 0.0) },
     { "--max-length", number(line.MaximumLength, 0.0) },
     { "--gradation", number(line.Gradation, 1e-3) },
-    { "--material",
-      [&line](const std::string&, const std::string& value) { ParseMaterial(value, line.Materials); } },
+    { "--material", [&line](const std::string&, const std::string& value) { ParseMaterial(value, line.Materials); } },
     { "--labels",
       [&line](const std::string& option, const std::string& value)
       {
@@ -161,13 +160,14 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--background",
       [&line](const std::string& option, const std::string& value) { line.Background = ParseInteger(option, value); } },
     { "--triangles",
-      [&line](const std::string& option, const std::string& value)
-      { line.Triangles = static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 1)); } },
+      [&line](const std::string& option, const std::string& value) {
+        line.Triangles = static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 1));
+      } },
     { "--threads",
       [&line](const std::string& option, const std::string& value)
       {
-        line.Threads = static_cast<int>(
-          std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 1), 4096.0));
+        line.Threads =
+          static_cast<int>(std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 1), 4096.0));
       } },
   };
 }
@@ -206,7 +206,8 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
   }
   if (files.size() == 1)
   {
-    Fail("there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
+    Fail(
+      "there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
   }
   for (const char* option :
     { "--particles", "--radius", "--material", "--epsilon", "--min-length", "--max-length", "--gradation" })

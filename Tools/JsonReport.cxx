@@ -116,7 +116,8 @@ std::string MaterialJson(vtkTable* table, vtkIdType row)
   json.Integer("components", count("Components")).Integer("euler", count("Euler"));
   json.Real("area", Cell(table, row, "Area")).Real("volume", Cell(table, row, "Volume"));
   json.Real("voxel_volume", Cell(table, row, "VoxelVolume"));
-  const std::pair<const char*, const char*> stages[] = { { "mask_volume", "MaskVolume" }, { "tight_volume", "TightVolume" } };
+  const std::pair<const char*, const char*> stages[] = { { "mask_volume", "MaskVolume" },
+    { "tight_volume", "TightVolume" } };
   for (const auto& stage : stages)
   {
     if (table->GetColumnByName(stage.second))
@@ -187,8 +188,8 @@ std::vector<std::string> LostLabels(vtkTable* table, const ReportInput& input, c
     {
       Json json;
       json.Integer("label", label).Text("stage", StageOfLostLabel(table, row, sampled));
-      json.Text("what", "no triangle has this label; its voxels have a volume of " +
-          Number(Cell(table, row, "VoxelVolume")));
+      json.Text(
+        "what", "no triangle has this label; its voxels have a volume of " + Number(Cell(table, row, "VoxelVolume")));
       lost.push_back(json.Object());
     }
   }
@@ -196,7 +197,8 @@ std::vector<std::string> LostLabels(vtkTable* table, const ReportInput& input, c
   {
     if (listed.count(label) == 0)
     {
-      lost.push_back(Json().Integer("label", label).Text("stage", "LabelSplit").Text("what", "no mask was made").Object());
+      lost.push_back(
+        Json().Integer("label", label).Text("stage", "LabelSplit").Text("what", "no mask was made").Object());
     }
   }
   return lost;
@@ -217,7 +219,8 @@ std::vector<std::string> LostPairs(vtkTable* table, const Sampled* sampled)
     Json json;
     json.Add("labels", "[" + std::to_string(a) + ", " + std::to_string(b) + "]");
     json.Text("stage", !sampled ? "GridLabelMesh" : seen ? "DelaunayLabelMesh" : "Tighten");
-    json.Text("what", "the two labels touch in " + std::to_string(Count(table, row, "VoxelFaces")) +
+    json.Text("what",
+      "the two labels touch in " + std::to_string(Count(table, row, "VoxelFaces")) +
         " faces of voxels, but no triangle lies between them");
     lost.push_back(json.Object());
   }
@@ -285,8 +288,8 @@ std::string JsonReport(const ReportInput& input)
     throw std::runtime_error("the mesh cannot be checked: " + messages.FirstError());
   }
   vtkTable* materials = report->GetOutput(0);
-  const long long background = static_cast<long long>(
-    input.Mesh->GetFieldData()->GetArray("BackgroundLabel")->GetComponent(0, 0));
+  const long long background =
+    static_cast<long long>(input.Mesh->GetFieldData()->GetArray("BackgroundLabel")->GetComponent(0, 0));
   std::vector<std::string> rows;
   for (vtkIdType row = 0; row < materials->GetNumberOfRows(); ++row)
   {

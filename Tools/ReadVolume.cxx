@@ -272,11 +272,14 @@ std::size_t NrrdSampleSize(const std::string& type)
   const std::string name = first == std::string::npos ? "" : OneLine(type.substr(first));
   const std::pair<std::size_t, std::vector<const char*>> sizes[] = {
     { 1, { "char", "signed char", "int8", "int8_t", "uchar", "unsigned char", "uint8", "uint8_t" } },
-    { 2, { "short", "short int", "signed short", "signed short int", "int16", "int16_t", "ushort", "unsigned short",
-           "unsigned short int", "uint16", "uint16_t" } },
+    { 2,
+      { "short", "short int", "signed short", "signed short int", "int16", "int16_t", "ushort", "unsigned short",
+        "unsigned short int", "uint16", "uint16_t" } },
     { 4, { "int", "signed int", "int32", "int32_t", "uint", "unsigned int", "uint32", "uint32_t", "float" } },
-    { 8, { "longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t",
-           "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t", "double" } } };
+    { 8,
+      { "longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t",
+        "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t", "double" } }
+  };
   for (const auto& size : sizes)
   {
     if (std::find(size.second.begin(), size.second.end(), name) != size.second.end())
@@ -299,13 +302,12 @@ std::uintmax_t NrrdDataSize(const std::string& file)
   return begin < 0 ? 0 : fs::file_size(file) - static_cast<std::uintmax_t>(begin);
 }
 
-/// vtkNrrdReader does not notice raw data that end early, and never comes back from a gzip stream that does. The last four
-/// bytes of such a stream hold the length of what was packed, which the header gives too.
+/// vtkNrrdReader does not notice raw data that end early, and never comes back from a gzip stream that does. The last
+/// four bytes of such a stream hold the length of what was packed, which the header gives too.
 void RequireWholeNrrd(const std::string& file)
 {
   const std::string encoding = OneLine(HeaderValue(file, "encoding", ":"));
-  const bool detached =
-    !HeaderValue(file, "data file", ":").empty() || !HeaderValue(file, "datafile", ":").empty();
+  const bool detached = !HeaderValue(file, "data file", ":").empty() || !HeaderValue(file, "datafile", ":").empty();
   std::size_t expected = NrrdSampleSize(HeaderValue(file, "type", ":"));
   for (const double size : NumbersIn(HeaderValue(file, "sizes", ":")))
   {

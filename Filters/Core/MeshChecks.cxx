@@ -43,7 +43,7 @@ struct QualitySum
 struct EdgeUse
 {
   Index Low, High;
-  Index Triangle; ///< of the surface
+  Index Triangle;  ///< of the surface
   int Low3, High3; ///< at which corners of the triangle Low and High are
   bool Forward;
 
@@ -93,7 +93,8 @@ std::vector<EdgeUse> SortedEdges(const std::vector<Corners>& surface)
     {
       const int d = (c + 1) % 3;
       const Index from = surface[t][c], to = surface[t][d];
-      uses.push_back(from < to ? EdgeUse{ from, to, Index(t), c, d, true } : EdgeUse{ to, from, Index(t), d, c, false });
+      uses.push_back(
+        from < to ? EdgeUse{ from, to, Index(t), c, d, true } : EdgeUse{ to, from, Index(t), d, c, false });
     }
   }
   std::sort(uses.begin(), uses.end());
@@ -107,7 +108,8 @@ Index CheckEdges(const std::vector<EdgeUse>& uses, MaterialCheck& check, Disjoin
   for (std::size_t first = 0, last = 0; first < uses.size(); first = last)
   {
     Index forward = 0;
-    for (last = first; last < uses.size() && uses[last].Low == uses[first].Low && uses[last].High == uses[first].High; ++last)
+    for (last = first; last < uses.size() && uses[last].Low == uses[first].Low && uses[last].High == uses[first].High;
+         ++last)
     {
       forward += uses[last].Forward ? 1 : 0;
     }
@@ -198,16 +200,16 @@ void RequireIndices(const std::vector<InterfaceTriangle>& triangles, Index point
     {
       if (v < 0 || v >= points)
       {
-        throw std::invalid_argument("triangle " + std::to_string(t) + " has the point " + std::to_string(v) + " of " +
-          std::to_string(points));
+        throw std::invalid_argument(
+          "triangle " + std::to_string(t) + " has the point " + std::to_string(v) + " of " + std::to_string(points));
       }
     }
     for (const MaterialId m : triangles[t].Materials)
     {
       if (m >= materials)
       {
-        throw std::invalid_argument("triangle " + std::to_string(t) + " has the material " + std::to_string(m) + " of " +
-          std::to_string(materials));
+        throw std::invalid_argument("triangle " + std::to_string(t) + " has the material " + std::to_string(m) +
+          " of " + std::to_string(materials));
       }
     }
   }
@@ -241,8 +243,8 @@ Index CountVertices(const std::vector<InterfaceTriangle>& triangles, std::size_t
 
 bool IsWrong(const InterfaceTriangle& triangle, const std::vector<MaterialSet>& sets)
 {
-  return std::any_of(triangle.Vertices.begin(), triangle.Vertices.end(), [&](Index v)
-    { return !sets[v].Contains(triangle.Materials[0]) || !sets[v].Contains(triangle.Materials[1]); });
+  return std::any_of(triangle.Vertices.begin(), triangle.Vertices.end(),
+    [&](Index v) { return !sets[v].Contains(triangle.Materials[0]) || !sets[v].Contains(triangle.Materials[1]); });
 }
 
 /// Ratios and areas of all, of each material and of each pair.

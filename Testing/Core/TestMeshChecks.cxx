@@ -257,8 +257,8 @@ TEST(MeshChecks, WrongFaces)
   sets[0] = MaterialSet();
   sets[0].Insert(0);
   sets[0].Insert(2);
-  const Index around = std::count_if(mesh.Triangles.begin(), mesh.Triangles.end(), [](const InterfaceTriangle& t)
-    { return t.Vertices[0] == 0 || t.Vertices[1] == 0 || t.Vertices[2] == 0; });
+  const Index around = std::count_if(mesh.Triangles.begin(), mesh.Triangles.end(),
+    [](const InterfaceTriangle& t) { return t.Vertices[0] == 0 || t.Vertices[1] == 0 || t.Vertices[2] == 0; });
   EXPECT_EQ(mesh.Check(3, sets).WrongFaces, around);
 }
 

@@ -231,7 +231,8 @@ TEST(MeshAdapter, SurfacesOfMaterials)
   ASSERT_NE(lost, nullptr);
   EXPECT_EQ(lost->GetNumberOfCells(), 0);
   EXPECT_TRUE(lost->GetCellData()->HasArray(Names::BoundaryLabels));
-  EXPECT_NEAR(vtkPolyData::SafeDownCast(surfaces->GetPartition(0, 0))->GetFieldData()->GetArray(Names::Color)->GetComponent(0, 2),
+  EXPECT_NEAR(
+    vtkPolyData::SafeDownCast(surfaces->GetPartition(0, 0))->GetFieldData()->GetArray(Names::Color)->GetComponent(0, 2),
     0.75, 0.0);
 }
 

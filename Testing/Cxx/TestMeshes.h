@@ -107,9 +107,9 @@ inline InterfaceMesh TwoBoxes(MaterialId left, MaterialId right, MaterialId arou
   {
     const Index o = box;
     const MaterialId m = box == 0 ? left : right;
-    quad(o, o + 3, o + 4, o + 1, m, around);     // z = 0, facing down
+    quad(o, o + 3, o + 4, o + 1, m, around);      // z = 0, facing down
     quad(o + 6, o + 7, o + 10, o + 9, m, around); // z = 1
-    quad(o, o + 1, o + 7, o + 6, m, around);     // y = 0
+    quad(o, o + 1, o + 7, o + 6, m, around);      // y = 0
     quad(o + 3, o + 9, o + 10, o + 4, m, around); // y = 1
   }
   quad(0, 6, 9, 3, left, around);
