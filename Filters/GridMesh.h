@@ -19,8 +19,8 @@ struct GridMeshOptions
 };
 
 /// The interfaces of a label image, in the local frame of its GridFrame; material ids are positions in image.Labels.
-/// The image is padded by one layer of the background so that every surface closes. Errors of VTK's filters are thrown as
-/// std::runtime_error, their warnings become those of `filter`.
+/// The image is padded by one layer of the background so that every surface closes. Errors of VTK's filters are thrown
+/// as std::runtime_error, their warnings become those of `filter`.
 InterfaceMesh MeshGrid(const LabelImage& image, MaterialId background, const GridMeshOptions& options,
   vtkAlgorithm* filter, const Monitor& monitor);
 }

@@ -15,17 +15,17 @@ namespace LabelMesh
 {
 struct LabelImage
 {
-  GridFrame Frame;                ///< of the samples; those of cell data lie at the cells' centres
-  std::vector<Label> Labels;      ///< ascending; those that occur
-  std::vector<MaterialId> Ids;    ///< per sample, x fastest: positions in Labels
+  GridFrame Frame;             ///< of the samples; those of cell data lie at the cells' centres
+  std::vector<Label> Labels;   ///< ascending; those that occur
+  std::vector<MaterialId> Ids; ///< per sample, x fastest: positions in Labels
 };
 
 /// The samples of an image's cells: their centres.
 GridFrame FrameOfCells(const GridFrame& points);
 
 /// Reads the labels of a point array (or a cell array) of an image: any integer type, or floats that hold integers.
-/// Throws std::invalid_argument with a sentence for the user: no array, several components, a fraction, an image that is
-/// not three-dimensional, or more labels than ids.
+/// Throws std::invalid_argument with a sentence for the user: no array, several components, a fraction, an image that
+/// is not three-dimensional, or more labels than ids.
 LabelImage ReadLabelImage(vtkImageData* image, vtkDataArray* array, bool cellData);
 
 /// Gives every label that is not in `kept` (ascending) the background's label, which may be new to the image.

@@ -15,8 +15,8 @@ class vtkPolyData;
 
 namespace LabelMesh
 {
-/// One vertex cell per particle; point arrays CellDimension, NumberOfMaterials, Materials, TargetLength, Residual, Normal.
-/// Field data as WriteMaterials.
+/// One vertex cell per particle; point arrays CellDimension, NumberOfMaterials, Materials, TargetLength, Residual,
+/// Normal. Field data as WriteMaterials.
 void ParticlesToPolyData(const std::vector<Particle>& particles, const CollectionHeader& header, vtkPolyData* output);
 /// Throws std::invalid_argument with a sentence when an array of the contract is missing or a label is unknown.
 std::vector<Particle> ParticlesFromPolyData(vtkPolyData* input, const CollectionHeader& header);
@@ -25,15 +25,15 @@ std::vector<Particle> ParticlesFromPolyData(vtkPolyData* input, const Collection
 void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Particle>& particles,
   const CollectionHeader& header, vtkPolyData* output);
 
-/// Triangles with cell arrays BoundaryLabels and RadiusRatio and point arrays CellDimension, NumberOfMaterials, Materials.
-/// Turns triangles over for mirrored frames and orders each pair as the contract says: the background label second, else
-/// ascending. Field data as WriteMaterials.
+/// Triangles with cell arrays BoundaryLabels and RadiusRatio and point arrays CellDimension, NumberOfMaterials,
+/// Materials. Turns triangles over for mirrored frames and orders each pair as the contract says: the background label
+/// second, else ascending. Field data as WriteMaterials.
 void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output);
 
-/// One closed, outward-oriented vtkPolyData per label that is not the background, ascending, NAME and field data Label and
-/// Color, with the interface's own points; from any interface mesh that keeps the BoundaryLabels contract. A material
-/// without triangles has an empty block. Point and cell arrays are kept; BoundaryLabels is (own label, the other side's),
-/// so that here too the normal points from the first to the second. Throws as ReadInterface does.
+/// One closed, outward-oriented vtkPolyData per label that is not the background, ascending, NAME and field data Label
+/// and Color, with the interface's own points; from any interface mesh that keeps the BoundaryLabels contract. A
+/// material without triangles has an empty block. Point and cell arrays are kept; BoundaryLabels is (own label, the
+/// other side's), so that here too the normal points from the first to the second. Throws as ReadInterface does.
 void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output);
 
 /// An interface mesh in Core's terms, in world coordinates.
@@ -46,8 +46,9 @@ struct InterfaceData
   std::vector<MaterialSet> Sets;            ///< per point; empty when the mesh has no point array Materials
 };
 
-/// Reads any interface mesh that keeps the BoundaryLabels contract. Without field data BackgroundLabel the background is 0.
-/// Throws std::invalid_argument with a sentence when there are cells that are not triangles or BoundaryLabels is missing.
+/// Reads any interface mesh that keeps the BoundaryLabels contract. Without field data BackgroundLabel the background
+/// is 0. Throws std::invalid_argument with a sentence when there are cells that are not triangles or BoundaryLabels is
+/// missing.
 InterfaceData ReadInterface(vtkPolyData* interfaceMesh);
 
 /// The pair in the order of the contract: the background second, else ascending. True when it was turned over.

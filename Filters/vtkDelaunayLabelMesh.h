@@ -7,26 +7,26 @@
  * mesh (paper, sections 4.3 and 5.3). So it is closed and conforming by construction.
  *
  * Input port 0 (vtkPolyData): the particles, from vtkParticleSampleCells.
- * Input port 1 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array "Indicator".
+ * Input port 1 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array
+ * "Indicator".
  *
  * Output port 0 (vtkPolyData): triangles, each once.
- *  - cell data "BoundaryLabels" (int64 x 2): the labels on its two sides; the normal points from the first to the second;
- *    the background second, else ascending. Space outside the volume is background.
+ *  - cell data "BoundaryLabels" (int64 x 2): the labels on its two sides; the normal points from the first to the
+ *    second; the background second, else ascending. Space outside the volume is background.
  *  - cell data "RadiusRatio" (double): 2 r_in / r_circ, 1 for an equilateral triangle
- *  - point data "CellDimension" (uint8), "NumberOfMaterials" (uint8), "Materials" (int64 x 8, ascending, the rest repeats
- *    the last): of the particle
+ *  - point data "CellDimension" (uint8), "NumberOfMaterials" (uint8), "Materials" (int64 x 8, ascending, the rest
+ *    repeats the last): of the particle
  *  - field data Labels, MaterialNames, MaterialColors, BackgroundLabel
  *
  * Output port 1 (vtkPartitionedDataSetCollection, assembly root "Surfaces"): a block per material but the background,
- * ascending by label, NAME the material's: its closed surface, normals outward, with the points of port 0 to the last bit
- * and their arrays. "BoundaryLabels" is (own label, other side's) there. Field data Label, Color. A material that was lost
- * has an empty block.
+ * ascending by label, NAME the material's: its closed surface, normals outward, with the points of port 0 to the last
+ * bit and their arrays. "BoundaryLabels" is (own label, other side's) there. Field data Label, Color. A material that
+ * was lost has an empty block.
  *
- * Method: a tetrahedron takes the material with the largest indicator at its circumcentre among those that are in the sets
- * of all four corners, so that no face crosses an interface (the paper asks the circumcentre alone). Then rounds of local
- * repair at triangles below RepairBelow, at faces whose materials are not in the sets of all their vertices, and at edges
- * where a surface is not manifold.
- * The same input gives the same bits for any number of threads.
+ * Method: a tetrahedron takes the material with the largest indicator at its circumcentre among those that are in the
+ * sets of all four corners, so that no face crosses an interface (the paper asks the circumcentre alone). Then rounds
+ * of local repair at triangles below RepairBelow, at faces whose materials are not in the sets of all their vertices,
+ * and at edges where a surface is not manifold. The same input gives the same bits for any number of threads.
  *
  * Errors: arrays that are missing, labels that the indicators do not have, a failed tetrahedralisation.
  * Warnings: what repair could not mend, with its figure. Empty inputs give empty outputs with their arrays.

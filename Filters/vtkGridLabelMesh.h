@@ -9,30 +9,30 @@
  * vtkLabelMesher.
  *
  * Input port 0 (vtkImageData): labels, SetInputArrayToProcess(0, ...), by default the active point or cell scalars; any
- * integer type, or floats that hold integers. Any extent, spacing and direction matrix. The volume is padded by a layer of
- * background so that surfaces close at its border.
+ * integer type, or floats that hold integers. Any extent, spacing and direction matrix. The volume is padded by a layer
+ * of background so that surfaces close at its border.
  *
  * Output port 0 (vtkPolyData): triangles, each once.
- *  - cell data "BoundaryLabels" (int64 x 2): the normal points from the first label to the second; the background second,
- *    else ascending
+ *  - cell data "BoundaryLabels" (int64 x 2): the normal points from the first label to the second; the background
+ *    second, else ascending
  *  - cell data "RadiusRatio" (double): 2 r_in / r_circ
- *  - point data "CellDimension" (uint8), "NumberOfMaterials" (uint8), "Materials" (int64 x 8): the labels of the triangles
- *    around the point, and 2, 1 or 0 for two, three, more labels
+ *  - point data "CellDimension" (uint8), "NumberOfMaterials" (uint8), "Materials" (int64 x 8): the labels of the
+ *    triangles around the point, and 2, 1 or 0 for two, three, more labels
  *  - field data Labels, MaterialNames, MaterialColors, BackgroundLabel
  *
  * Output port 1 (vtkPartitionedDataSetCollection): the surface of each material but the background, outward, by label;
  * see vtkDelaunayLabelMesh.
  *
- * Method: marching cubes makes a surface for each label against all the rest. Where in a cell of the grid the surfaces of
- * two labels have the same border they become one piece of interface with both labels. So the surfaces are closed, and
- * stay so when smoothing moves their vertices.
+ * Method: marching cubes makes a surface for each label against all the rest. Where in a cell of the grid the surfaces
+ * of two labels have the same border they become one piece of interface with both labels. So the surfaces are closed,
+ * and stay so when smoothing moves their vertices.
  *
  * Known flaws, which are the baseline's own:
- *  - where three or more labels meet, and at ambiguous faces, the labels' surfaces do not fit together: narrow tunnels of
- *    background run along the junctions (or labels overlap there by less than a voxel). Their triangles carry the
+ *  - where three or more labels meet, and at ambiguous faces, the labels' surfaces do not fit together: narrow tunnels
+ *    of background run along the junctions (or labels overlap there by less than a voxel). Their triangles carry the
  *    background as one label though none is near;
- *  - cracks after decimation: where collapsing an edge lays two triangles on one another, vtkQuadricDecimation drops one,
- *    though both may be needed where surfaces meet (about one edge in a thousand);
+ *  - cracks after decimation: where collapsing an edge lays two triangles on one another, vtkQuadricDecimation drops
+ *    one, though both may be needed where surfaces meet (about one edge in a thousand);
  *  - edges with four triangles of a label and vertices where a surface touches itself, as the voxels have them;
  *  - triangles as bad as a grid makes them (minimal ratios near 0), sizes that do not follow the shape;
  *  - smoothing and decimation ignore the other sheet of a thin part: surfaces may cross.
@@ -59,8 +59,8 @@ public:
 
   ///@{
   /**
-   * The labels to mesh; all others become background. Default: none given, which means all that occur. A label that does
-   * not occur is listed in the output's field data but has no triangle.
+   * The labels to mesh; all others become background. Default: none given, which means all that occur. A label that
+   * does not occur is listed in the output's field data but has no triangle.
    */
   void AddLabel(vtkIdType label);
   void ClearLabels();

@@ -4,8 +4,8 @@
  * @brief   From a label volume to a watertight mesh of all its materials, in one step.
  *
  * The whole chain in one filter: vtkLabelSplit, vtkTighten, vtkIndicatorReconstruct, vtkSizingField,
- * vtkParticleSampleCells, vtkDelaunayLabelMesh. Every stage keeps its output, so that a change runs only the stages that it
- * concerns: a new Epsilon does not tighten again.
+ * vtkParticleSampleCells, vtkDelaunayLabelMesh. Every stage keeps its output, so that a change runs only the stages
+ * that it concerns: a new Epsilon does not tighten again.
  *
  * Input port 0 (vtkImageData): labels, SetInputArrayToProcess(0, ...), by default the active point or cell scalars; see
  * vtkLabelSplit.

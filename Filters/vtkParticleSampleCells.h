@@ -4,18 +4,19 @@
  * @brief   Spreads particles over the places where materials meet: points, curves, surfaces.
  *
  * The interfaces of several materials form a CW-complex (paper, section 3): 0-cells where four materials meet, 1-cells
- * (curves) where three do, 2-cells (surfaces) where two do. Particles are put on the 0-cells, then along the 1-cells, then
- * on the 2-cells, so that those of lower cells are fixed while the next ones move (paper, sections 4.2 and 5.2).
+ * (curves) where three do, 2-cells (surfaces) where two do. Particles are put on the 0-cells, then along the 1-cells,
+ * then on the 2-cells, so that those of lower cells are fixed while the next ones move (paper, sections 4.2 and 5.2).
  *
- * Input port 0 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array "Indicator".
+ * Input port 0 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array
+ * "Indicator".
  *
- * Input port 1 (vtkImageData): point array "TargetLength" (any real type): how far apart particles shall be, world length,
- * from vtkSizingField. Its direction matrix must be that of the indicators. Beyond it the nearest value holds.
+ * Input port 1 (vtkImageData): point array "TargetLength" (any real type): how far apart particles shall be, world
+ * length, from vtkSizingField. Its direction matrix must be that of the indicators. Beyond it the nearest value holds.
  *
  * Output port 0 (vtkPolyData): a vertex per particle, those of 0-cells first, then 1-cells, then 2-cells; point data
  *  - "CellDimension" (uint8): 0, 1 or 2: of the lowest cell that the particle lies on
- *  - "NumberOfMaterials" (uint8), "Materials" (int64 x 8): the labels that meet there, ascending, the rest repeats the last;
- *    more than four where junctions closer than the target length were merged
+ *  - "NumberOfMaterials" (uint8), "Materials" (int64 x 8): the labels that meet there, ascending, the rest repeats the
+ *    last; more than four where junctions closer than the target length were merged
  *  - "TargetLength" (double), "Residual" (double): world lengths; the residual is the distance to the junction
  *  - "Normal" (double x 3): on 2-cells the unit normal from the first material into the second; else zero
  *  - field data Labels, MaterialNames, MaterialColors, BackgroundLabel
@@ -23,11 +24,11 @@
  * Output port 1 (vtkPolyData): the 1-cells as polylines through their particles; closed ones end where they begin.
  *  - cell data "Materials" (int64 x 3): the labels that meet along the curve
  *
- * Method: 0-cells by Newton's method on three differences of indicators; 1-cells traced from them and from what is left,
- * and divided evenly in units of the target length; 2-cells by projected grid crossings thinned to a Poisson-disk set,
- * then relaxed: each particle steps in its tangent plane (eq. 6 and 7) by the energy of its neighbours and is projected
- * back, with particles deleted where they crowd and inserted where they are missing.
- * The same input gives the same bits for any number of threads.
+ * Method: 0-cells by Newton's method on three differences of indicators; 1-cells traced from them and from what is
+ * left, and divided evenly in units of the target length; 2-cells by projected grid crossings thinned to a Poisson-disk
+ * set, then relaxed: each particle steps in its tangent plane (eq. 6 and 7) by the energy of its neighbours and is
+ * projected back, with particles deleted where they crowd and inserted where they are missing. The same input gives the
+ * same bits for any number of threads.
  *
  * Limits: structures that no grid cell shows are not found. At most eight materials at a particle.
  *
@@ -63,7 +64,8 @@ public:
   vtkIdType GetNumberOfCellParticles(int dimension) const;
 
   ///@{
-  /// After an update: (0-cell, three of its materials) pairs that are not the end of exactly one 1-cell. 0 on clean fields.
+  /// After an update: (0-cell, three of its materials) pairs that are not the end of exactly one 1-cell. 0 on clean
+  /// fields.
   vtkGetMacro(OpenCurveEnds, vtkIdType);
   ///@}
 

@@ -9,8 +9,9 @@
 class vtkPartitionedDataSetCollection;
 class vtkPolyData;
 
-/// Each file is written in a hidden folder of its own beside its place. Commit moves all of them to their places; without
-/// it the folders vanish with this object, and nothing has changed. All functions throw std::runtime_error with a sentence.
+/// Each file is written in a hidden folder of its own beside its place. Commit moves all of them to their places;
+/// without it the folders vanish with this object, and nothing has changed. All functions throw std::runtime_error with
+/// a sentence.
 class OutputFiles
 {
 public:

@@ -11,10 +11,11 @@ class vtkImageData;
 
 /// Reads .mha, .mhd, .nrrd, .nii, .nii.gz or .vti by VTK's readers.
 ///
-/// Orientation: VTK's readers of MetaImage and NRRD drop it, so TransformMatrix and "space directions" are read from the
-/// header here. A NIfTI file's sform, or else its qform, is used where it is a rotation (perhaps mirrored); the coordinates
-/// are the file's own (NIfTI's right-anterior-superior; MetaImage and NRRD mostly left-posterior-superior): they are not
-/// converted. Throws std::runtime_error with a sentence: no such file, unknown suffix, broken or truncated, not a volume.
+/// Orientation: VTK's readers of MetaImage and NRRD drop it, so TransformMatrix and "space directions" are read from
+/// the header here. A NIfTI file's sform, or else its qform, is used where it is a rotation (perhaps mirrored); the
+/// coordinates are the file's own (NIfTI's right-anterior-superior; MetaImage and NRRD mostly left-posterior-superior):
+/// they are not converted. Throws std::runtime_error with a sentence: no such file, unknown suffix, broken or
+/// truncated, not a volume.
 vtkSmartPointer<vtkImageData> ReadVolume(const std::string& file);
 
 #endif
