@@ -18,6 +18,7 @@ constexpr double SmallestStep = 0.02;
 constexpr double SameZeroCell = 0.05; // two solutions for the same four materials this close are one
 constexpr double VisitedDistance = 0.6;
 constexpr double SeedReach = 1.5; // how far a solution may lie from the cell that suggested it
+constexpr double ClosingDistance = 0.1; // how near to where it was a closed curve passes again
 constexpr Index MostSteps = 1000000;
 
 /// Positions by the voxel they are in, for look-ups among near ones.
@@ -110,6 +111,14 @@ std::vector<SeedCell> FindSeedCells(const IndicatorSet& indicators)
         }
       }
     });
+}
+
+double DistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b)
+{
+  const Vec3 ab = b - a;
+  const double squared = ab.squaredNorm();
+  const double t = squared > 0 ? std::clamp((x - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
+  return (x - a - t * ab).norm();
 }
 
 class Tracer
@@ -265,7 +274,7 @@ private:
   /// Extends the curve from its last point along `tangent` until it closes, meets a 0-cell or is lost.
   void Follow(OneCell& curve, Vec3 tangent)
   {
-    const Vec3 start = curve.Points.front();
+    PositionHash passed(this->Voxel);
     double step = StepLength * this->Voxel;
     for (Index n = 0; n < MostSteps; ++n)
     {
@@ -292,15 +301,35 @@ private:
         this->EndAtZeroCell(curve, rival.Material, p.Position);
         return;
       }
-      if (n > 4 && (p.Position - start).norm() < 0.75 * step && curve.Start < 0 && move.dot(start - from) > 0)
+      const Index met = this->MetAgain(curve, passed, from, p.Position);
+      if (met >= 0)
       {
-        curve.Closed = true;
+        // Mostly at its start. Where two stretches are closer than a step it may have come onto a loop from outside.
+        curve.Closed = curve.Start < 0;
+        curve.Points.erase(curve.Points.begin(), curve.Points.begin() + (curve.Closed ? met : 0));
         return;
       }
+      passed.Insert(from, Index(curve.Points.size()) - 1);
       curve.Points.push_back(p.Position);
       tangent = next;
       step = std::min(1.5 * step, StepLength * this->Voxel);
     }
+  }
+
+  /// The point of the curve that its next segment passes again in the same direction; -1 where there is none.
+  Index MetAgain(const OneCell& curve, const PositionHash& passed, const Vec3& from, const Vec3& to) const
+  {
+    const Index recent = Index(curve.Points.size()) - 5;
+    Index met = -1;
+    passed.AnyNear(to,
+      [&](Index n)
+      {
+        const bool again = n < recent && (curve.Points[n + 1] - curve.Points[n]).dot(to - from) > 0 &&
+          DistanceToSegment(curve.Points[n], from, to) < ClosingDistance * this->Voxel;
+        met = again ? n : met;
+        return again;
+      });
+    return met;
   }
 
   void EndAtZeroCell(OneCell& curve, MaterialId rival, const Vec3& x)

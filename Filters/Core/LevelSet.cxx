@@ -2,7 +2,6 @@
 #include "LevelSet.h"
 
 #include "NarrowBand.h"
-#include "Parallel.h"
 
 #include <stdexcept>
 #include <string>
@@ -13,8 +12,9 @@ namespace
 {
 constexpr double IterationTime = 0.2; // voxels squared of curvature flow in one iteration
 constexpr double LargestRadius = 10;  // voxels: the work of the bounds grows with its cube
+}
 
-void Check(const TightenOptions& options)
+void CheckTightenOptions(const TightenOptions& options)
 {
   if (!(options.Radius >= 0) || options.Radius > LargestRadius)
   {
@@ -31,42 +31,50 @@ void Check(const TightenOptions& options)
       "The narrow band is " + std::to_string(options.Band) + " voxels wide; later stages need 2 at least.");
   }
 }
+
+double BandReach(const TightenOptions& options)
+{
+  // The opening and closing need the distance on both sides of a zero set that is moved by the radius.
+  return std::max(options.Band, options.Radius + 3.0);
+}
+
+TightenResult TightenBand(
+  NarrowBand& band, const Lattice& frame, const TightenOptions& options, const Monitor& monitor)
+{
+  if (options.Radius > 0)
+  {
+    monitor.Step(0.0, "Opening");
+    band.MeasureDistance(NarrowBand::BallReach(options.Radius));
+    const std::vector<float> opening = band.Opening(options.Radius);
+    monitor.Step(0.25, "Closing");
+    const std::vector<float> closing = band.Closing(options.Radius);
+    monitor.Step(0.5, "Tightening");
+    band.SmoothBetween(IterationTime * options.TightenIterations, opening, closing);
+    monitor.Step(0.8, "Re-distancing");
+    band.Redistance(BandReach(options));
+  }
+  const double voxelVolume = frame.VoxelVolume();
+  TightenResult result;
+  result.MaskVolume = double(band.NumberOfInsideSamples()) * voxelVolume;
+  result.TightVolume = band.Volume() * voxelVolume;
+  result.Distance = band.Distance(frame.VoxelSize(), options.Band * frame.VoxelSize());
+  return result;
 }
 
 TightenResult Tighten(const Lattice& frame, const float* mask, const TightenOptions& options, const Monitor& monitor)
 {
-  Check(options);
-  TightenResult result;
+  CheckTightenOptions(options);
   if (frame.Size() == 0)
   {
-    return result;
+    return TightenResult();
   }
-  // The opening and closing need the distance on both sides of a zero set that is moved by the radius.
-  const double reach = std::max(options.Band, options.Radius + 3.0);
+  const double reach = BandReach(options);
   monitor.Step(0.0, "Distance");
   NarrowBand band(frame, mask, reach);
 
   monitor.Step(0.1, "Antialiasing");
   band.SmoothKeepingSides(IterationTime * options.AntialiasIterations);
   band.Redistance(reach);
-
-  if (options.Radius > 0)
-  {
-    monitor.Step(0.25, "Opening");
-    band.MeasureDistance(NarrowBand::BallReach(options.Radius));
-    const std::vector<float> opening = band.Opening(options.Radius);
-    monitor.Step(0.45, "Closing");
-    const std::vector<float> closing = band.Closing(options.Radius);
-    monitor.Step(0.65, "Tightening");
-    band.SmoothBetween(IterationTime * options.TightenIterations, opening, closing);
-    monitor.Step(0.85, "Re-distancing");
-    band.Redistance(reach);
-  }
-
-  const double voxelVolume = frame.VoxelVolume();
-  result.MaskVolume = double(band.NumberOfInsideSamples()) * voxelVolume;
-  result.TightVolume = band.Volume() * voxelVolume;
-  result.Distance = band.Distance(frame.VoxelSize(), options.Band * frame.VoxelSize());
-  return result;
+  return TightenBand(band, frame, options, monitor.Part(0.25, 1.0));
 }
 }

@@ -24,6 +24,18 @@ struct TightenResult
   double TightVolume = 0.0;    ///< the volume inside the zero level, world length cubed; 0: nothing is left
 };
 
+class NarrowBand;
+
+/// Throws std::invalid_argument for options out of range.
+void CheckTightenOptions(const TightenOptions& options);
+
+/// Half width in voxels of the narrow band that tightening works in.
+double BandReach(const TightenOptions& options);
+
+/// Steps 3 and 4 of Tighten, on a band of BandReach(options) whose function is a distance.
+TightenResult TightenBand(
+  NarrowBand& band, const Lattice& frame, const TightenOptions& options, const Monitor& monitor);
+
 /// Signed distance of a mask (1 inside, 0 outside) whose border samples are outside, or inside for a background mask.
 ///
 /// 1. Exact signed distance in a narrow band (SignedDistance).

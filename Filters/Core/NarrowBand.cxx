@@ -10,7 +10,6 @@ namespace LabelMesh
 {
 namespace
 {
-constexpr int Margin = 2;         // samples: the widest stencil
 constexpr Index ChunkSize = 8192; // active samples in a piece of work: a few dozen microseconds
 
 /// Steps and step length for a flow over `time` that must not exceed `longest`.
@@ -24,6 +23,13 @@ struct TimeSteps
   int Count;
   float Length;
 };
+
+/// The longest stable step of the curvature flow: explicit diffusion is stable up to 1 / (2 sum 1/h^2) in all
+/// directions, and the flow has none along the normal.
+double LongestStep(const Lattice& frame)
+{
+  return 0.6 / frame.Spacing.cwiseAbs2().cwiseInverse().sum();
+}
 
 /// The second-order differences of a function times their denominators.
 struct CurvatureStencil
@@ -102,12 +108,40 @@ void UpwindStep(const float* __restrict phi, float* __restrict to, const float* 
   }
 }
 
-Lattice GrownInVoxels(const Lattice& frame)
+/// The share of a cell where the trilinear interpolant of its corners' distances (in voxels; x fastest) is positive: 4^3
+/// parts, each by its distance to a plane.
+double VolumeInside(const std::array<float, 8>& phi, float spacing)
+{
+  constexpr int parts = 4;
+  double volume = 0.0;
+  for (int k = 0; k < parts; ++k)
+  {
+    const float w = (float(k) + 0.5f) / parts;
+    for (int j = 0; j < parts; ++j)
+    {
+      const float v = (float(j) + 0.5f) / parts;
+      const auto alongYZ = [&](int x)
+      {
+        const float low = phi[x] + v * (phi[x + 2] - phi[x]), high = phi[x + 4] + v * (phi[x + 6] - phi[x + 4]);
+        return low + w * (high - low);
+      };
+      const float left = alongYZ(0), right = alongYZ(1);
+      for (int i = 0; i < parts; ++i)
+      {
+        const float value = left + (float(i) + 0.5f) / parts * (right - left);
+        volume += std::clamp(0.5f + parts * value / spacing, 0.0f, 1.0f);
+      }
+    }
+  }
+  return volume / (parts * parts * parts);
+}
+
+Lattice GrownInVoxels(const Lattice& frame, int margin)
 {
   Lattice grown = frame;
   for (int& n : grown.Dims)
   {
-    n += 2 * Margin;
+    n += 2 * margin;
   }
   grown.Spacing /= frame.VoxelSize();
   return grown;
@@ -115,7 +149,7 @@ Lattice GrownInVoxels(const Lattice& frame)
 }
 
 NarrowBand::NarrowBand(const Lattice& frame, const float* mask, double band)
-  : Frame(GrownInVoxels(frame))
+  : Frame(GrownInVoxels(frame, Margin))
   , End(float(band))
 {
   const Index nx = frame.Dims[0], ny = frame.Dims[1], nz = frame.Dims[2];
@@ -236,8 +270,7 @@ void NarrowBand::FindGhosts()
 template <typename Clamp>
 void NarrowBand::Smooth(double time, Clamp&& clamp)
 {
-  // Explicit diffusion is stable up to 1 / (2 sum 1/h^2) in all directions, and the flow has none along the normal.
-  const TimeSteps steps(time, 0.6 / this->Frame.Spacing.cwiseAbs2().cwiseInverse().sum());
+  const TimeSteps steps(time, LongestStep(this->Frame));
   const CurvatureStencil stencil(this->Frame, steps.Length);
   for (int step = 0; step < steps.Count; ++step)
   {
@@ -258,6 +291,22 @@ void NarrowBand::SmoothKeepingSides(double time)
     {
       const float inside = after > least ? after : least, outside = after < -least ? after : -least;
       return before > 0 ? inside : outside;
+    });
+}
+
+void NarrowBand::SmoothTowards(double time, const std::vector<float>& sides, double force)
+{
+  constexpr float least = 0.05f; // voxels: so far the force pushes
+  // Each step of the flow pushes for its own time.
+  const float push = float(force * TimeSteps(time, LongestStep(this->Frame)).Length);
+  const float* const side = sides.data();
+  this->Smooth(time,
+    [side, push](float, float after, Index at)
+    {
+      const float s = side[at] > 0 ? 1.0f : -1.0f;
+      const float own = s * after;
+      const float pushed = own + push < least ? own + push : least;
+      return own < least ? s * pushed : after;
     });
 }
 
@@ -310,6 +359,12 @@ void NarrowBand::Redistance(double reach)
   }
 }
 
+void NarrowBand::Assign(const std::vector<float>& packed)
+{
+  this->Advance([&](const Run& run)
+    { std::copy_n(packed.data() + run.Packed, run.Count, this->Next.data() + run.First); });
+}
+
 std::vector<float> NarrowBand::Pack() const
 {
   std::vector<float> packed(static_cast<std::size_t>(this->Active));
@@ -321,14 +376,23 @@ std::vector<float> NarrowBand::Pack() const
 double NarrowBand::Volume() const
 {
   const Index y = this->Frame.Dims[0], z = y * this->Frame.Dims[1];
-  std::vector<double> chunks(this->Chunks.size(), 0.0);
-  const auto partInside = [&](const float* p)
+  const Index corners[8] = { 0, 1, y, y + 1, z, z + 1, z + y, z + y + 1 };
+  const float spacing = float(this->Frame.Spacing.mean());
+  // Each sample inside gives an eighth to each of the cells that it is a corner of; cells that the zero set crosses give
+  // what lies inside of them instead.
+  const auto part = [&](const float* p)
   {
-    const bool inside = p[0] > 0;
-    const bool beside = (p[-1] > 0) != inside || (p[1] > 0) != inside || (p[-y] > 0) != inside ||
-      (p[y] > 0) != inside || (p[-z] > 0) != inside || (p[z] > 0) != inside;
-    return beside ? std::clamp(0.5 + double(p[0]), 0.0, 1.0) : double(inside);
+    int inside = 0;
+    std::array<float, 8> phi;
+    for (int c = 0; c < 8; ++c)
+    {
+      phi[c] = p[corners[c]];
+      inside += phi[c] > 0;
+    }
+    const double own = phi[0] > 0 ? 1.0 : 0.0;
+    return inside == 0 || inside == 8 ? own : own + VolumeInside(phi, spacing) - inside / 8.0;
   };
+  std::vector<double> chunks(this->Chunks.size(), 0.0);
   ParallelFor(0, Index(this->Chunks.size()) - 1, 0,
     [&](Index first, Index last)
     {
@@ -338,7 +402,7 @@ double NarrowBand::Volume() const
         {
           for (Index i = 0; i < this->Runs[r].Count; ++i)
           {
-            chunks[c] += partInside(this->Phi.data() + this->Runs[r].First + i);
+            chunks[c] += part(this->Phi.data() + this->Runs[r].First + i);
           }
         }
       }

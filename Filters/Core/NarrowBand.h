@@ -32,6 +32,9 @@ public:
   void SmoothKeepingSides(double time);
   /// The same flow, between two bounds that Pack() gave.
   void SmoothBetween(double time, const std::vector<float>& lower, const std::vector<float>& upper);
+  /// The same flow, in which a sample that has left its side of `sides` (packed; the sign counts) is pushed back with a
+  /// constant force, up to 0.05: a sample is given up only where keeping it takes more curvature (1 / voxel) than `force`.
+  void SmoothTowards(double time, const std::vector<float>& sides, double force);
   /// Makes phi a distance again up to `reach` voxels from its zero set, which stays where it is: samples beside it get
   /// their distance to the plane through it (the subcell fix of Russo and Smereka), the others follow
   /// phi_t = sign(phi) (1 - |grad phi|), upwind.
@@ -51,16 +54,35 @@ public:
   /// The same of -phi, turned over: the closing as an upper bound.
   std::vector<float> Closing(double radius) const;
 
-  /// The active samples, one after another.
+  /// The active samples, one after another, and back.
   std::vector<float> Pack() const;
+  void Assign(const std::vector<float>& packed);
+  /// phi along x at (0, j, k) of the lattice given at first.
+  const float* Row(Index j, Index k) const
+  {
+    return this->Phi.data() + this->Frame.At(Margin, j + Margin, k + Margin);
+  }
+  /// Calls body(packed, i, j, k, count) in parallel for runs of active samples along x, which start at (i, j, k) of the
+  /// lattice given at first and at number `packed` of the packed samples.
+  template <typename Body>
+  void ForActive(Body&& body) const
+  {
+    this->ForRuns(
+      [&](const Run& run)
+      {
+        const std::array<int, 3> at = this->Frame.Coordinates(run.First);
+        body(run.Packed, Index(at[0] - Margin), Index(at[1] - Margin), Index(at[2] - Margin), run.Count);
+      });
+  }
 
-  /// Volume inside the zero set in voxels (of volume one): samples beside it count by the part of them that lies
-  /// inside.
+  /// Volume inside the zero set in voxels (of volume one).
   double Volume() const;
   /// phi * unit, clamped to +-limit, on the lattice given at first.
   std::vector<float> Distance(double unit, double limit) const;
 
 private:
+  static constexpr int Margin = 2; // samples: the widest stencil
+
   /// Active samples [First, First + Count) of phi; the first one is active sample number Packed.
   struct Run
   {
