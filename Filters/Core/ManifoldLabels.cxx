@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ManifoldLabels.h"
 
+#include "Parallel.h"
+
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <tuple>
 
@@ -61,8 +62,9 @@ int ExtraFans(std::vector<FanPiece>& pieces)
   return extra;
 }
 
-/// The edges from a vertex that some material's pieces use other than twice, counted once per material.
-int TiedEdges(const std::vector<FanPiece>& pieces)
+/// Calls visit(other end) for each edge from a vertex that some material's pieces use other than twice, once per material.
+template <typename Visit>
+void ForTiedEdges(const std::vector<FanPiece>& pieces, Visit&& visit)
 {
   std::vector<std::pair<MaterialId, Index>> uses;
   for (const FanPiece& p : pieces)
@@ -71,7 +73,6 @@ int TiedEdges(const std::vector<FanPiece>& pieces)
     uses.emplace_back(p.Material, p.B);
   }
   std::sort(uses.begin(), uses.end());
-  int tied = 0;
   for (std::size_t first = 0; first < uses.size();)
   {
     std::size_t last = first;
@@ -79,9 +80,18 @@ int TiedEdges(const std::vector<FanPiece>& pieces)
     {
       ++last;
     }
-    tied += last - first != 2;
+    if (last - first != 2)
+    {
+      visit(uses[first].second);
+    }
     first = last;
   }
+}
+
+int TiedEdges(const std::vector<FanPiece>& pieces)
+{
+  int tied = 0;
+  ForTiedEdges(pieces, [&](Index) { ++tied; });
   return tied;
 }
 
@@ -115,20 +125,48 @@ public:
     }
   }
 
-  void MendEdge(const Edge& edge)
+  /// Changes labels around a vertex if it is faulty: those around its tangled edges first, then any of its star.
+  void Mend(Index vertex)
   {
-    std::vector<std::int32_t> around;
-    for (const std::int32_t t : this->Star(edge.first))
+    std::vector<FanPiece> pieces;
+    this->Pieces(vertex, pieces);
+    std::vector<Index> others;
+    ForTiedEdges(pieces, [&](Index other) { others.push_back(other); });
+    for (const Index other : others)
     {
-      const auto& corners = this->Tetrahedra.Corners[t];
-      if (std::find(corners.begin(), corners.end(), std::int32_t(edge.second)) != corners.end())
+      std::vector<std::int32_t> around;
+      for (const std::int32_t t : this->Star(vertex))
       {
-        around.push_back(t);
+        const auto& corners = this->Tetrahedra.Corners[t];
+        if (std::find(corners.begin(), corners.end(), std::int32_t(other)) != corners.end())
+        {
+          around.push_back(t);
+        }
+      }
+      this->Mend(around);
+    }
+    if (this->Faults(vertex) > 0)
+    {
+      this->Mend(this->Star(vertex));
+    }
+  }
+
+  /// The faulty ones among the vertices and their neighbours, ascending.
+  std::vector<Index> FaultyNear(const std::vector<Index>& vertices) const
+  {
+    std::vector<Index> near;
+    for (const Index vertex : vertices)
+    {
+      for (const std::int32_t t : this->Star(vertex))
+      {
+        near.insert(near.end(), this->Tetrahedra.Corners[t].begin(), this->Tetrahedra.Corners[t].end());
       }
     }
-    this->Mend(around);
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    near.erase(std::remove_if(near.begin(), near.end(), [this](Index v) { return this->Faults(v) == 0; }), near.end());
+    return near;
   }
-  void MendVertex(Index vertex) { this->Mend(this->Star(vertex)); }
 
 private:
   struct Group
@@ -142,10 +180,9 @@ private:
     return { this->Stars.begin() + this->Starts[vertex], this->Stars.begin() + this->Starts[vertex + 1] };
   }
 
-  /// What is wrong at a vertex: extra fans, and edges in tangles.
-  int Faults(Index vertex) const
+  void Pieces(Index vertex, std::vector<FanPiece>& pieces) const
   {
-    std::vector<FanPiece> pieces;
+    pieces.clear();
     for (Index n = this->Starts[vertex]; n < this->Starts[vertex + 1]; ++n)
     {
       const std::int32_t t = this->Stars[n];
@@ -171,6 +208,13 @@ private:
         pieces.push_back({ other, others[0], others[1] });
       }
     }
+  }
+
+  /// What is wrong at a vertex: extra fans, and edges in tangles.
+  int Faults(Index vertex) const
+  {
+    std::vector<FanPiece> pieces;
+    this->Pieces(vertex, pieces);
     const int tied = TiedEdges(pieces);
     return ExtraFans(pieces) + 2 * tied;
   }
@@ -305,125 +349,128 @@ private:
   std::vector<Index> Starts; // tetrahedra at vertex v: Stars[Starts[v] .. Starts[v + 1])
   std::vector<std::int32_t> Stars;
 };
-}
 
-std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces)
+/// The faces at every vertex.
+struct VertexFaces
 {
-  struct Use
+  std::vector<Index> Starts, Faces;
+
+  explicit VertexFaces(const std::vector<InterfaceTriangle>& faces)
   {
-    Index A, B;
-    MaterialId Material;
-    bool operator<(const Use& o) const { return std::tie(A, B, Material) < std::tie(o.A, o.B, o.Material); }
-    bool operator==(const Use& o) const { return A == o.A && B == o.B && Material == o.Material; }
-  };
-  std::vector<Use> uses;
-  uses.reserve(6 * faces.size());
-  for (const InterfaceTriangle& face : faces)
-  {
-    for (int e = 0; e < 3; ++e)
+    Index points = 0;
+    for (const InterfaceTriangle& face : faces)
     {
-      const auto [a, b] = std::minmax(face.Vertices[e], face.Vertices[(e + 1) % 3]);
-      for (const MaterialId m : face.Materials)
+      points = std::max({ points, face.Vertices[0] + 1, face.Vertices[1] + 1, face.Vertices[2] + 1 });
+    }
+    this->Starts.assign(points + 1, 0);
+    for (const InterfaceTriangle& face : faces)
+    {
+      for (const Index v : face.Vertices)
       {
-        uses.push_back({ a, b, m });
+        ++this->Starts[v + 1];
+      }
+    }
+    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
+    this->Faces.resize(3 * faces.size());
+    std::vector<Index> at(this->Starts.begin(), this->Starts.end() - 1);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+    {
+      for (const Index v : faces[f].Vertices)
+      {
+        this->Faces[at[v]++] = Index(f);
       }
     }
   }
-  std::sort(uses.begin(), uses.end());
-  std::vector<Edge> tied;
-  for (std::size_t n = 0; n < uses.size();)
-  {
-    std::size_t end = n;
-    while (end < uses.size() && uses[end] == uses[n])
-    {
-      ++end;
-    }
-    const Edge edge(uses[n].A, uses[n].B);
-    if (end - n != 2 && (tied.empty() || tied.back() != edge))
-    {
-      tied.push_back(edge);
-    }
-    n = end;
-  }
-  return tied;
-}
 
-std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& faces)
-{
-  Index points = 0;
-  for (const InterfaceTriangle& face : faces)
-  {
-    points = std::max(points, 1 + *std::max_element(face.Vertices.begin(), face.Vertices.end()));
-  }
-  std::vector<Index> starts(points + 1, 0);
-  for (const InterfaceTriangle& face : faces)
-  {
-    for (const Index v : face.Vertices)
-    {
-      ++starts[v + 1];
-    }
-  }
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  std::vector<Index> incident(3 * faces.size()), at(starts.begin(), starts.end() - 1);
-  for (std::size_t f = 0; f < faces.size(); ++f)
-  {
-    for (const Index v : faces[f].Vertices)
-    {
-      incident[at[v]++] = Index(f);
-    }
-  }
-  std::vector<Index> pinched;
-  std::vector<FanPiece> pieces;
-  for (Index v = 0; v < points; ++v)
+  Index Vertices() const { return Index(this->Starts.size()) - 1; }
+
+  void Pieces(const std::vector<InterfaceTriangle>& faces, Index v, std::vector<FanPiece>& pieces) const
   {
     pieces.clear();
-    for (Index n = starts[v]; n < starts[v + 1]; ++n)
+    for (Index n = this->Starts[v]; n < this->Starts[v + 1]; ++n)
     {
-      const InterfaceTriangle& face = faces[incident[n]];
+      const InterfaceTriangle& face = faces[this->Faces[n]];
       const int own = face.Vertices[0] == v ? 0 : face.Vertices[1] == v ? 1 : 2;
       for (const MaterialId m : face.Materials)
       {
         pieces.push_back({ m, face.Vertices[(own + 1) % 3], face.Vertices[(own + 2) % 3] });
       }
     }
-    if (ExtraFans(pieces) > 0)
-    {
-      pinched.push_back(v);
-    }
   }
-  return pinched;
+
+  /// Calls body(v, pieces, found) for every vertex; returns what it found, in the order of the vertices.
+  template <typename T, typename Body>
+  std::vector<T> Collect(const std::vector<InterfaceTriangle>& faces, Body&& body) const
+  {
+    constexpr Index chunk = 2048;
+    return ParallelCollect<T>((this->Vertices() + chunk - 1) / chunk,
+      [&](Index c, std::vector<T>& found)
+      {
+        std::vector<FanPiece> pieces;
+        for (Index v = c * chunk; v < std::min(this->Vertices(), (c + 1) * chunk); ++v)
+        {
+          this->Pieces(faces, v, pieces);
+          body(v, pieces, found);
+        }
+      });
+  }
+};
+}
+
+std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces)
+{
+  return VertexFaces(faces).Collect<Edge>(faces,
+    [](Index v, const std::vector<FanPiece>& pieces, std::vector<Edge>& found)
+    {
+      const std::size_t before = found.size();
+      ForTiedEdges(pieces,
+        [&](Index other)
+        {
+          if (other > v && std::find(found.begin() + before, found.end(), Edge(v, other)) == found.end())
+          {
+            found.emplace_back(v, other);
+          }
+        });
+      std::sort(found.begin() + before, found.end());
+    });
+}
+
+std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& faces)
+{
+  return VertexFaces(faces).Collect<Index>(faces,
+    [](Index v, std::vector<FanPiece>& pieces, std::vector<Index>& found)
+    {
+      if (ExtraFans(pieces) > 0)
+      {
+        found.push_back(v);
+      }
+    });
 }
 
 void MakeManifold(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
   TetraLabels& labels)
 {
-  std::unique_ptr<Untying> untying;
-  for (int round = 0; round < MostRounds; ++round)
+  const std::vector<InterfaceTriangle> faces = InterfaceFaces(particles, tetrahedra, labels, outside);
+  std::vector<Index> faulty = VertexFaces(faces).Collect<Index>(faces,
+    [](Index v, std::vector<FanPiece>& pieces, std::vector<Index>& found)
+    {
+      if (ExtraFans(pieces) + TiedEdges(pieces) > 0)
+      {
+        found.push_back(v);
+      }
+    });
+  if (faulty.empty())
   {
-    const std::vector<InterfaceTriangle> faces = InterfaceFaces(particles, tetrahedra, labels, outside);
-    const std::vector<Edge> edges = NonManifoldEdges(faces);
-    const std::vector<Index> vertices = NonManifoldVertices(faces);
-    if (edges.empty() && vertices.empty())
+    return;
+  }
+  Untying untying(particles, tetrahedra, outside, labels);
+  for (int round = 0; round < MostRounds && !faulty.empty(); ++round)
+  {
+    for (const Index vertex : faulty)
     {
-      return;
+      untying.Mend(vertex);
     }
-    if (!untying)
-    {
-      untying = std::make_unique<Untying>(particles, tetrahedra, outside, labels);
-    }
-    const std::vector<MaterialId> before = labels.Labels;
-    for (const Edge& edge : edges)
-    {
-      untying->MendEdge(edge);
-    }
-    for (const Index vertex : vertices)
-    {
-      untying->MendVertex(vertex);
-    }
-    if (labels.Labels == before)
-    {
-      return;
-    }
+    faulty = untying.FaultyNear(faulty);
   }
 }
 }
