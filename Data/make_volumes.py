@@ -5,6 +5,7 @@
     make_volumes.py OUTDIR [NAME...]      all of them when no NAME is given
     make_volumes.py --list
 
+two_spheres@SIZE is two_spheres with SIZE voxels along each side, in two_spheres@SIZE.mha.
 Label 0 is the background. Samples lie at the integer coordinates unless a volume says otherwise.
 """
 import sys
@@ -50,7 +51,8 @@ def coordinates(size):
 
 def ball(size, centre, radius):
     x, y, z = coordinates(size)
-    return (x - centre[0]) ** 2 + (y - centre[1]) ** 2 + (z - centre[2]) ** 2 <= radius ** 2
+    disc = (x - centre[0]) ** 2 + (y - centre[1]) ** 2
+    return disc <= radius ** 2 - (z - centre[2]) ** 2  # no volume of floats: 512 voxels a side are to fit
 
 
 def two_spheres(size=128):
@@ -127,6 +129,16 @@ VOLUMES = {
 }
 
 
+def find(name):
+    """The two functions of a name, or None."""
+    base, at, size = name.partition("@")
+    if not at:
+        return VOLUMES.get(name)
+    if base == "two_spheres" and size.isdecimal() and 16 <= int(size) <= 2048:
+        return lambda: two_spheres(int(size)), dict
+    return None
+
+
 def main(arguments):
     if arguments == ["--list"]:
         print("\n".join(VOLUMES))
@@ -135,14 +147,15 @@ def main(arguments):
         print(__doc__.strip(), file=sys.stderr)
         return 1
     names = arguments[1:] or list(VOLUMES)
-    unknown = [name for name in names if name not in VOLUMES]
+    unknown = [name for name in names if not find(name)]
     if unknown:
-        print(f"make_volumes.py: no volume '{unknown[0]}'; there are {', '.join(VOLUMES)}", file=sys.stderr)
+        print(f"make_volumes.py: no volume '{unknown[0]}'; there are {', '.join(VOLUMES)}, and two_spheres@SIZE with "
+              "a SIZE of 16 to 2048", file=sys.stderr)
         return 1
     folder = Path(arguments[0])
     folder.mkdir(parents=True, exist_ok=True)
     for name in names:
-        make, frame = VOLUMES[name]
+        make, frame = find(name)
         write_mha(folder / f"{name}.mha", make(), **frame())
     return 0
 

@@ -245,6 +245,7 @@ void AddTotals(vtkFieldData* fieldData, const MeshCheck& check)
     fieldData->AddArray(array);
   }
   const std::pair<const char*, double> ratios[] = { { "MinRadiusRatio", check.Quality.MinRadiusRatio },
+    { "FirstPercentileRadiusRatio", check.FirstPercentileRatio },
     { "MeanRadiusRatio", check.Quality.MeanRadiusRatio } };
   for (const auto& ratio : ratios)
   {

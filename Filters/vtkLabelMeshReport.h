@@ -40,7 +40,8 @@
  *  - "Lost" (uint8): voxels of the two labels touch but no triangle lies between them
  *
  * Field data of both tables (one value each): "Points", "Triangles" (int64, each triangle once), "MinRadiusRatio",
- * "MeanRadiusRatio" (double), "DuplicateTriangles" (more triangles than one on the same three points),
+ * "FirstPercentileRadiusRatio" (one triangle in a hundred is below), "MeanRadiusRatio" (double), "DuplicateTriangles"
+ * (more triangles than one on the same three points),
  * "DegenerateTriangles" (ratio below 1e-10), "SameLabelTriangles" (left out of everything else), "WrongFaces" (whose
  * two labels are not in the Materials of all their points) (int64).
  *

@@ -254,6 +254,7 @@ void AddHead(const ReportInput& input, vtkTable* totals, Json& json)
   json.Integer("points", static_cast<long long>(FieldValue(totals, "Points")));
   json.Integer("triangles", static_cast<long long>(FieldValue(totals, "Triangles")));
   json.Real("min_radius_ratio", FieldValue(totals, "MinRadiusRatio"));
+  json.Real("p1_radius_ratio", FieldValue(totals, "FirstPercentileRadiusRatio"));
   json.Real("mean_radius_ratio", FieldValue(totals, "MeanRadiusRatio"));
   json.Integer("duplicate_triangles", static_cast<long long>(FieldValue(totals, "DuplicateTriangles")));
   json.Integer("wrong_faces", static_cast<long long>(FieldValue(totals, "WrongFaces")));
@@ -291,15 +292,19 @@ std::string JsonReport(const ReportInput& input)
   const long long background =
     static_cast<long long>(input.Mesh->GetFieldData()->GetArray("BackgroundLabel")->GetComponent(0, 0));
   std::vector<std::string> rows;
+  Json json;
+  AddHead(input, materials, json);
   for (vtkIdType row = 0; row < materials->GetNumberOfRows(); ++row)
   {
-    if (Count(materials, row, "Label") != background)
+    if (Count(materials, row, "Label") == background)
+    {
+      json.Add("background", MaterialJson(materials, row));
+    }
+    else
     {
       rows.push_back("\n  " + MaterialJson(materials, row));
     }
   }
-  Json json;
-  AddHead(input, materials, json);
   json.Add("materials", Array(rows, ","));
   std::optional<Sampled> sampled;
   if (input.Particles)

@@ -27,11 +27,12 @@ struct ReportInput
 };
 
 /// One JSON object:
-///  input, dimensions, spacing, method, points, triangles, min_radius_ratio, mean_radius_ratio,
+///  input, dimensions, spacing, method, points, triangles, min_radius_ratio, p1_radius_ratio, mean_radius_ratio,
 ///  duplicate_triangles, wrong_faces,
 ///  materials [{label, name, triangles, vertices, min_radius_ratio, mean_radius_ratio, closed, manifold, oriented,
 ///    open_edges, nonmanifold_edges, nonmanifold_vertices, components, euler, area, volume, voxel_volume, mask_volume,
 ///    tight_volume}] without the background; manifold: every edge has two triangles and every vertex one fan,
+///  background: the same of the background; its volume is negative: the space that the materials take,
 ///  cells {"0", "1", "2"}: particles on 0-, 1- and 2-cells (particle method),
 ///  lost [{label or labels, stage, what}], seconds {stage: s, total}, peak_memory_bytes, threads, version.
 /// The stage of a loss is the first after which it can be seen.

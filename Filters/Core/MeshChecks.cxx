@@ -284,6 +284,12 @@ void MeasureQuality(const std::vector<Vec3>& points, const std::vector<Interface
     }
     check.Pairs.push_back({ order[first].first, sum.Result() });
   }
+  if (!measures.empty())
+  {
+    const auto at = measures.begin() + std::ptrdiff_t(measures.size() / 100);
+    std::nth_element(measures.begin(), at, measures.end());
+    check.FirstPercentileRatio = (*at)[0];
+  }
 }
 }
 

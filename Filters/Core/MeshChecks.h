@@ -46,6 +46,7 @@ struct PairCheck
 struct MeshCheck
 {
   TriangleQuality Quality;              ///< every triangle once
+  double FirstPercentileRatio = 1.0;    ///< the radius ratio that one triangle in a hundred falls below
   std::vector<MaterialCheck> Materials; ///< by material id
   std::vector<PairCheck> Pairs;         ///< ascending; only those with triangles
   Index Vertices = 0;                   ///< that triangles use

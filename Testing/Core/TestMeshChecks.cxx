@@ -242,6 +242,33 @@ TEST(MeshChecks, DuplicateDegenerateAndSameMaterial)
   EXPECT_EQ(check.SameMaterialTriangles, 1);
   EXPECT_EQ(check.Quality.Triangles, 14);
   EXPECT_EQ(check.Quality.MinRadiusRatio, 0.0);
+  EXPECT_EQ(check.FirstPercentileRatio, 0.0);
+}
+
+TEST(MeshChecks, FirstPercentile)
+{
+  // 204 good triangles: two bad ones are below the first percentile, a third one is on it.
+  const Mesh cube = UnitCube();
+  Mesh mesh;
+  for (int copy = 0; copy < 17; ++copy)
+  {
+    const Index first = Index(mesh.Points.size());
+    mesh.Points.insert(mesh.Points.end(), cube.Points.begin(), cube.Points.end());
+    for (InterfaceTriangle triangle : cube.Triangles)
+    {
+      for (Index& vertex : triangle.Vertices)
+      {
+        vertex += first;
+      }
+      mesh.Triangles.push_back(triangle);
+    }
+  }
+  mesh.Triangles.push_back({ { 0, 1, 1 }, { 1, 0 } });
+  EXPECT_GT(mesh.Check(2).FirstPercentileRatio, 0.8);
+  mesh.Triangles.push_back({ { 1, 2, 2 }, { 1, 0 } });
+  EXPECT_GT(mesh.Check(2).FirstPercentileRatio, 0.8);
+  mesh.Triangles.push_back({ { 2, 3, 3 }, { 1, 0 } });
+  EXPECT_EQ(mesh.Check(2).FirstPercentileRatio, 0.0);
 }
 
 TEST(MeshChecks, WrongFaces)
@@ -268,6 +295,7 @@ TEST(MeshChecks, EmptyAndInvalid)
   EXPECT_EQ(check.Materials.size(), 3u);
   EXPECT_EQ(check.Quality.Triangles, 0);
   EXPECT_EQ(check.Quality.MinRadiusRatio, 1.0);
+  EXPECT_EQ(check.FirstPercentileRatio, 1.0);
   EXPECT_TRUE(check.Materials[1].Closed());
   EXPECT_EQ(check.Materials[1].Components, 0);
   Mesh bad = UnitCube();
