@@ -373,6 +373,20 @@ std::vector<float> NarrowBand::Pack() const
   return packed;
 }
 
+std::vector<RowRange> NarrowBand::ActiveRows() const
+{
+  const Index ny = this->Frame.Dims[1] - 2 * Margin, nz = this->Frame.Dims[2] - 2 * Margin;
+  std::vector<RowRange> rows(static_cast<std::size_t>(ny * nz));
+  for (const Run& run : this->Runs)
+  {
+    const std::array<int, 3> at = this->Frame.Coordinates(run.First);
+    RowRange& row = rows[at[1] - Margin + ny * (at[2] - Margin)];
+    const Index first = at[0] - Margin;
+    row = row.Empty() ? RowRange{ first, first + run.Count } : RowRange{ row.First, first + run.Count };
+  }
+  return rows;
+}
+
 double NarrowBand::Volume() const
 {
   const Index y = this->Frame.Dims[0], z = y * this->Frame.Dims[1];

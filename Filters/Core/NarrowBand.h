@@ -4,6 +4,7 @@
 #define LabelMesh_Core_NarrowBand_h
 
 #include "DistanceTransform.h"
+#include "GaussianBlur.h"
 #include "Lattice.h"
 #include "Parallel.h"
 
@@ -74,6 +75,9 @@ public:
         body(run.Packed, Index(at[0] - Margin), Index(at[1] - Margin), Index(at[2] - Margin), run.Count);
       });
   }
+
+  /// From the first to the last active sample of every row of the lattice given at first.
+  std::vector<RowRange> ActiveRows() const;
 
   /// Volume inside the zero set in voxels (of volume one).
   double Volume() const;

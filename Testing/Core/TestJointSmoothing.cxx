@@ -45,9 +45,11 @@ struct Volume
 TEST(GaussianBlur, KeepsTheSumAndHasItsVariance)
 {
   const Lattice frame = MakeLattice(31, 31, 31, Vec3(1, 1.5, 0.75));
-  std::vector<float> field(frame.Size(), 0.0f);
+  const GaussianBlur blur(frame, 2.0, std::vector<RowRange>(31 * 31, RowRange{ 0, 31 }));
+  std::vector<float> field;
+  blur.Clear(field);
   field[frame.At(15, 15, 15)] = 1.0f;
-  GaussianBlur(frame, 2.0, field);
+  blur.Apply(field);
   double sum = 0;
   Vec3 variance = Vec3::Zero();
   for (Index at = 0; at < frame.Size(); ++at)
@@ -61,6 +63,39 @@ TEST(GaussianBlur, KeepsTheSumAndHasItsVariance)
   for (int a = 0; a < 3; ++a)
   {
     EXPECT_NEAR(variance[a], 4.0, 0.15); // cut at three standard deviations
+  }
+}
+
+TEST(GaussianBlur, InRangesIsWhatItIsEverywhere)
+{
+  const Lattice frame = MakeLattice(40, 30, 20);
+  std::vector<RowRange> rows(30 * 20);
+  std::vector<float> everywhere, within(frame.Size(), 1e9f); // what lies beyond the ranges must not be read
+  const GaussianBlur whole(frame, 1.5, std::vector<RowRange>(30 * 20, RowRange{ 0, 40 }));
+  whole.Clear(everywhere);
+  for (Index k = 0; k < 20; ++k)
+  {
+    for (Index j = 0; j < 30; ++j)
+    {
+      const Index first = (j + k) / 2, last = std::min<Index>(40, first + (j * k) % 9);
+      rows[j + 30 * k] = { first, last };
+      for (Index i = first; i < last; ++i)
+      {
+        everywhere[frame.At(i, j, k)] = within[frame.At(i, j, k)] = float(std::sin(double(i + 3 * j + 7 * k)));
+      }
+    }
+  }
+  whole.Apply(everywhere);
+  GaussianBlur(frame, 1.5, rows).Apply(within);
+  for (Index k = 0; k < 20; ++k)
+  {
+    for (Index j = 0; j < 30; ++j)
+    {
+      for (Index i = rows[j + 30 * k].First; i < rows[j + 30 * k].Last; ++i)
+      {
+        ASSERT_NEAR(within[frame.At(i, j, k)], everywhere[frame.At(i, j, k)], 1e-6);
+      }
+    }
   }
 }
 
