@@ -7,11 +7,17 @@
 
 #include <Eigen/Dense>
 
+#include <optional>
+
 namespace LabelMesh
 {
 namespace
 {
 constexpr int SweepsPerList = 5;        // neighbour lists are kept that long
+constexpr double SweepTolerance = 0.02; // voxels: how far off their interface particles may be between sweeps
+constexpr double FinalTolerance = 0.001;
+constexpr double LargestResidual = 0.02;
+constexpr double LeastTurn = 0.2; // cosine between the normals before and after a move
 constexpr double ListRange = 1.12;      // and so much longer than the interaction
 constexpr double Regularization = 0.05; // of the trace of the Hessian
 
@@ -28,16 +34,22 @@ struct TangentFrame
   }
 };
 
-/// Gauss-Newton step of one particle in its tangent plane against its neighbours.
-Vec3 EnergyStep(const std::vector<Particle>& particles, Index i, const Index* first, const Index* last)
+/// What a particle's neighbours see of it, side by side in memory.
+struct Neighbor
 {
-  const Particle& p = particles[i];
+  Vec3 Position;
+  double TargetLength;
+};
+
+/// Gauss-Newton step of one particle in its tangent plane against its neighbours.
+Vec3 EnergyStep(const Particle& p, const std::vector<Neighbor>& particles, const Index* first, const Index* last)
+{
   const TangentFrame tangent(p.Normal);
   Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
   Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
   for (const Index* j = first; j != last; ++j)
   {
-    const Particle& q = particles[*j];
+    const Neighbor& q = particles[*j];
     const double scale = 1.0 / (InteractionRange * std::min(p.TargetLength, q.TargetLength));
     const Vec3 off = p.Position - q.Position;
     const double length = off.norm();
@@ -102,16 +114,15 @@ struct NeighborLists
     }
   }
 };
-}
 
-bool PutOnInterface(
-  const IndicatorSet& indicators, MaterialId a, MaterialId b, const Vec3& x, double reach, Particle& particle)
+/// As the public one; the Newton steps end when one is shorter than `tolerance` (voxels).
+bool PutOnInterface(const IndicatorSet& indicators, MaterialId a, MaterialId b, const Vec3& x, double reach,
+  double tolerance, Particle& particle)
 {
   const double voxel = indicators.VoxelSize();
   Vec3 at = x, gradientA, gradientB, difference = Vec3::Zero();
   double residual = voxel;
-  // Two or three steps from within a voxel; the last one is the residual.
-  for (int iteration = 0; iteration < 4 && residual > 1e-3 * voxel; ++iteration)
+  for (int iteration = 0; iteration < 4 && residual > tolerance * voxel; ++iteration)
   {
     const double value = indicators.ValueAndGradient(a, at, gradientA) - indicators.ValueAndGradient(b, at, gradientB);
     difference = gradientA - gradientB;
@@ -128,7 +139,7 @@ bool PutOnInterface(
     }
     at += step;
   }
-  if (residual > 0.02 * voxel || (at - x).squaredNorm() > reach * reach)
+  if (residual > LargestResidual * voxel || (at - x).squaredNorm() > reach * reach)
   {
     return false;
   }
@@ -146,56 +157,64 @@ bool PutOnInterface(
   particle.Residual = residual;
   return true;
 }
+}
+
+bool PutOnInterface(
+  const IndicatorSet& indicators, MaterialId a, MaterialId b, const Vec3& x, double reach, Particle& particle)
+{
+  return PutOnInterface(indicators, a, b, x, reach, FinalTolerance, particle);
+}
 
 double Relax(const IndicatorSet& indicators, const Grid<float>* targetLength, std::vector<Particle>& particles,
   const std::vector<Index>& moving, const RelaxOptions& options)
 {
   const Index count = Index(moving.size());
   std::vector<Vec3> steps(count, Vec3::Zero());
-  std::vector<Particle> moved(count);
   std::vector<double> moves(count, 0.0);
-  std::vector<NeighborLists> lists;
+  std::vector<Neighbor> neighbors;
+  neighbors.reserve(particles.size());
+  for (const Particle& p : particles)
+  {
+    neighbors.push_back({ p.Position, p.TargetLength });
+  }
+  std::optional<NeighborLists> lists;
   for (int sweep = 0; sweep < options.Sweeps; ++sweep)
   {
     if (sweep % SweepsPerList == 0)
     {
-      lists.clear();
-      lists.emplace_back(particles, moving);
+      lists.emplace(particles, moving);
     }
-    const NeighborLists& neighbors = lists.front();
+    const double tolerance = sweep + 1 == options.Sweeps ? FinalTolerance : SweepTolerance;
     ParallelFor(0, count, 512,
       [&](Index first, Index last)
       {
         for (Index n = first; n < last; ++n)
         {
-          const Particle& p = particles[moving[n]];
-          const Index* ids = neighbors.Ids.data();
+          Particle& p = particles[moving[n]]; // neighbours read their own copy of what they need
+          const Index* const ids = lists->Ids.data();
           Vec3 step = options.Damping *
-              EnergyStep(particles, moving[n], ids + neighbors.Starts[n], ids + neighbors.Starts[n + 1]) +
+              EnergyStep(p, neighbors, ids + lists->Starts[n], ids + lists->Starts[n + 1]) +
             options.Momentum * ToTangentPlane(steps[n], p.Normal);
           const double length = step.norm(), most = options.LargestStep * p.TargetLength;
           if (length > most)
           {
             step *= most / length;
           }
-          moved[n] = p;
+          Particle moved = p;
           const Vec3 target = p.Position + step;
-          if (PutOnInterface(indicators, p.Materials[0], p.Materials[1], target, p.TargetLength, moved[n]) &&
-            moved[n].Normal.dot(p.Normal) > 0.2)
+          const bool stays =
+            !PutOnInterface(indicators, p.Materials[0], p.Materials[1], target, p.TargetLength, tolerance, moved) ||
+            moved.Normal.dot(p.Normal) <= LeastTurn;
+          if (stays)
           {
-            steps[n] = step;
-            moves[n] = (moved[n].Position - p.Position).norm() / p.TargetLength;
-            if (targetLength)
-            {
-              moved[n].TargetLength = targetLength->Trilinear(moved[n].Position);
-            }
-          }
-          else
-          {
-            moved[n] = p;
             steps[n].setZero();
             moves[n] = 0.0;
+            continue;
           }
+          steps[n] = step;
+          moves[n] = (moved.Position - p.Position).norm() / p.TargetLength;
+          moved.TargetLength = targetLength ? targetLength->Trilinear(moved.Position) : p.TargetLength;
+          p = moved;
         }
       });
     ParallelFor(0, count, 4096,
@@ -203,7 +222,7 @@ double Relax(const IndicatorSet& indicators, const Grid<float>* targetLength, st
       {
         for (Index n = first; n < last; ++n)
         {
-          particles[moving[n]] = moved[n];
+          neighbors[moving[n]] = { particles[moving[n]].Position, particles[moving[n]].TargetLength };
         }
       });
   }

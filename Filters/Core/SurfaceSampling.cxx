@@ -194,24 +194,46 @@ void AddWhereFree(std::vector<Particle>& particles, const std::vector<Particle>&
 void DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& protection)
 {
   const NeighborGrid grid = GridOf(particles, particles.size());
-  std::vector<char> alive(particles.size(), 1);
-  for (std::size_t i = 0; i < particles.size(); ++i)
+  // Who is too close to whom, in parallel; then who stays, one after another.
+  struct Conflict
   {
-    const Particle& p = particles[i];
-    if (p.CellDimension < 2)
+    Index Later, Earlier; // Earlier -1: a protection ball
+  };
+  constexpr Index chunk = 1024;
+  const Index count = Index(particles.size());
+  const std::vector<Conflict> conflicts = ParallelCollect<Conflict>((count + chunk - 1) / chunk,
+    [&](Index c, std::vector<Conflict>& found)
     {
-      continue;
-    }
-    bool crowded = protection.Contains(p.Position);
-    grid.VisitScaled(p.Position, p.TargetLength, CrowdedDistance,
-      [&](Index j, double squared)
+      for (Index i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i)
       {
-        // Of a crowded pair the later one goes; particles of 0- and 1-cells come first.
-        const double core = HardCore * std::min(p.TargetLength, particles[j].TargetLength);
-        crowded = crowded ||
-          (j < Index(i) && alive[j] && (squared < core * core || Interact(p, particles[j])));
-      });
-    alive[i] = !crowded;
+        const Particle& p = particles[i];
+        if (p.CellDimension < 2)
+        {
+          continue;
+        }
+        if (protection.Contains(p.Position))
+        {
+          found.push_back({ i, -1 });
+        }
+        grid.VisitScaled(p.Position, p.TargetLength, CrowdedDistance,
+          [&](Index j, double squared)
+          {
+            const double core = HardCore * std::min(p.TargetLength, particles[j].TargetLength);
+            if (j < i && (squared < core * core || Interact(p, particles[j])))
+            {
+              found.push_back({ i, j });
+            }
+          });
+      }
+    });
+  // Of a crowded pair the later one goes; particles of 0- and 1-cells come first.
+  std::vector<char> alive(particles.size(), 1);
+  for (const Conflict& conflict : conflicts)
+  {
+    if (conflict.Earlier < 0 || alive[conflict.Earlier])
+    {
+      alive[conflict.Later] = 0;
+    }
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < particles.size(); ++i)
