@@ -22,7 +22,8 @@ def main(paths):
                            ("mean_radius_ratio", "mean 2r/R")]:
             rows.append((f"{name}: {title}", [number(m[key]) if m else "-" for m in same]))
         rows.append((f"{name}: volume / voxels", [f"{m['volume'] / m['voxel_volume']:.4f}" if m else "-" for m in same]))
-        rows.append((f"{name}: closed", [("yes" if m["closed"] and m["manifold"] else "no") if m else "-" for m in same]))
+        sound = [("yes" if m["closed"] and m["manifold"] else "no") if m else "-" for m in same]
+        rows.append((f"{name}: closed, manifold", sound))
     rows.append(("seconds", [f"{report['seconds']['total']:.2f}" for report in reports]))
 
     width = max(len(title) for title, _ in rows)

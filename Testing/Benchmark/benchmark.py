@@ -18,6 +18,7 @@ when none is given. Four tables come out, and all of it as JSON:
 The last column of sizes and particles, power, is p in seconds ~ n^p from the row before: n log n is a little over 1.
 """
 import argparse
+import importlib.util
 import json
 import math
 import os
@@ -84,6 +85,8 @@ class Bench:
             return Path(name).absolute()
         path = self.folder / f"{name}.mha"
         if not path.exists():
+            if importlib.util.find_spec("numpy") is None:
+                raise Problem(f"no file '{name}', and making a volume needs numpy, which {sys.executable} has not")
             run([sys.executable, ROOT / "Data" / "make_volumes.py", self.folder, name])
         return path
 
