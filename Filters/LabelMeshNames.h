@@ -27,6 +27,7 @@ inline constexpr char Padding[] = "Padding";                   ///< int32: sampl
 inline constexpr char IndicatorKernel[] = "IndicatorKernel";   ///< string
 inline constexpr char MaskVolumes[] = "MaskVolumes";           ///< float64 x N, world length cubed
 inline constexpr char TightVolumes[] = "TightVolumes";         ///< float64 x N, world length cubed
+inline constexpr char KeptVolumes[] = "KeptVolumes";           ///< float64 x N, TightVolumes / MaskVolumes
 inline constexpr char IndicatorsRoot[] = "Indicators";         ///< root of a collection's assembly
 inline constexpr char SurfacesRoot[] = "Surfaces";
 inline constexpr char CatmullRom[] = "CatmullRom";

@@ -51,7 +51,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// The largest constant added to a material's distance, in voxels; 0: none. Default 0.03.
+  /// The largest constant added to a material's distance, in voxels; 0: none. Default 0.01.
   vtkSetClampMacro(Perturbation, double, 0.0, 0.5);
   vtkGetMacro(Perturbation, double);
   ///@}
@@ -91,7 +91,7 @@ protected:
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  double Perturbation = 0.03;
+  double Perturbation = 0.01;
   double ImageResolution = 1.0;
   std::vector<vtkIdType> InspectedLabels;
   double SmoothMaximumEpsilon = 1e-5;

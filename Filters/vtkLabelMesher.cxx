@@ -275,7 +275,7 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
       vtkDataObject::GetData(outputVector, 2)->ShallowCopy(stages.Sample->GetOutputDataObject(0));
       vtkDataObject::GetData(outputVector, 3)->ShallowCopy(stages.Sample->GetOutputDataObject(1));
       vtkFieldData* volumes = stages.Tighten->GetOutputDataObject(0)->GetFieldData();
-      for (const char* name : { Names::MaskVolumes, Names::TightVolumes })
+      for (const char* name : { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes })
       {
         if (vtkAbstractArray* array = volumes->GetAbstractArray(name))
         {
@@ -383,6 +383,46 @@ void vtkLabelMesher::SetClosingRadius(double radius)
 double vtkLabelMesher::GetClosingRadius() const
 {
   return this->Stages->Split->GetClosingRadius();
+}
+
+void vtkLabelMesher::SetSmoothing(int smoothing)
+{
+  this->Stages->Tighten->SetSmoothing(smoothing);
+}
+
+int vtkLabelMesher::GetSmoothing() const
+{
+  return this->Stages->Tighten->GetSmoothing();
+}
+
+void vtkLabelMesher::SetSmoothingToVolumeKeeping()
+{
+  this->Stages->Tighten->SetSmoothingToVolumeKeeping();
+}
+
+void vtkLabelMesher::SetSmoothingToTightening()
+{
+  this->Stages->Tighten->SetSmoothingToTightening();
+}
+
+void vtkLabelMesher::SetFidelity(double fidelity)
+{
+  this->Stages->Tighten->SetFidelity(fidelity);
+}
+
+double vtkLabelMesher::GetFidelity() const
+{
+  return this->Stages->Tighten->GetFidelity();
+}
+
+void vtkLabelMesher::SetRounds(int rounds)
+{
+  this->Stages->Tighten->SetRounds(rounds);
+}
+
+int vtkLabelMesher::GetRounds() const
+{
+  return this->Stages->Tighten->GetRounds();
 }
 
 void vtkLabelMesher::SetRadius(double radius)

@@ -14,7 +14,7 @@
  *
  * Output port 0 (vtkPolyData): the interface triangles, each once; see vtkDelaunayLabelMesh for its arrays.
  * Output port 1 (vtkPartitionedDataSetCollection): a closed surface per material; see vtkDelaunayLabelMesh. Field data
- * MaskVolumes, TightVolumes (float64, in the order of Labels) as vtkTighten's, for vtkLabelMeshReport.
+ * MaskVolumes, TightVolumes, KeptVolumes (float64, in the order of Labels) as vtkTighten's, for vtkLabelMeshReport.
  * Output port 2 (vtkPolyData): the particles, before repair; see vtkParticleSampleCells.
  * Output port 3 (vtkPolyData): the curves where three materials meet; see vtkParticleSampleCells.
  *
@@ -83,7 +83,20 @@ public:
   ///@}
 
   ///@{
-  /// vtkTighten: least radius of curvature, voxels (1), for all and for single materials; steps of its flows (10, 20).
+  /// vtkTighten: VolumeKeeping or Tightening (VolumeKeeping); fidelity (0.85, 1 / voxel) and rounds (8) of the first.
+  void SetSmoothing(int smoothing);
+  int GetSmoothing() const;
+  void SetSmoothingToVolumeKeeping();
+  void SetSmoothingToTightening();
+  void SetFidelity(double fidelity);
+  double GetFidelity() const;
+  void SetRounds(int rounds);
+  int GetRounds() const;
+  ///@}
+
+  ///@{
+  /// vtkTighten: least radius of curvature, voxels (0.7), for all and for single materials; steps of antialiasing (10)
+  /// and of tightening (20).
   void SetRadius(double radius);
   double GetRadius() const;
   void SetMaterialRadius(vtkIdType label, double radius);
@@ -96,13 +109,13 @@ public:
   ///@}
 
   ///@{
-  /// vtkIndicatorReconstruct: the largest constant added to a material's distance, voxels (0.03).
+  /// vtkIndicatorReconstruct: the largest constant added to a material's distance, voxels (0.01).
   void SetPerturbation(double voxels);
   double GetPerturbation() const;
   ///@}
 
   ///@{
-  /// vtkSizingField: edge length over feature size (0.5); the least feature size, voxels (1); growth of length (0.4).
+  /// vtkSizingField: edge length over feature size (0.7); the least feature size, voxels (0.8); growth of length (0.4).
   void SetEpsilon(double epsilon);
   double GetEpsilon() const;
   void SetFeatureSizeFloor(double voxels);

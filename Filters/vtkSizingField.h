@@ -50,13 +50,13 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Edge length relative to the local feature size. Default 0.5.
+  /// Edge length relative to the local feature size. Default 0.7.
   vtkSetMacro(Epsilon, double);
   vtkGetMacro(Epsilon, double);
   ///@}
 
   ///@{
-  /// The least feature size, in voxels: the radius of vtkTighten. Default 1.0.
+  /// The least feature size, in voxels: about the radius of vtkTighten. Default 0.8.
   vtkSetMacro(FeatureSizeFloor, double);
   vtkGetMacro(FeatureSizeFloor, double);
   ///@}
@@ -109,8 +109,8 @@ protected:
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  double Epsilon = 0.5;
-  double FeatureSizeFloor = 1.0;
+  double Epsilon = 0.7;
+  double FeatureSizeFloor = 0.8;
   double Gradation = 0.4;
   double MinimumLength = 0.0;
   double MaximumLength = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTighten.h"
 
-#include "Core/LevelSet.h"
+#include "Core/JointSmoothing.h"
 #include "Core/Parallel.h"
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
@@ -144,15 +144,54 @@ void TightenAll(std::vector<Job>& jobs, const std::vector<Material>& materials, 
   finishBatch();
 }
 
-void AddVolumes(vtkFieldData* fieldData, const char* name, const std::vector<double>& volumes)
+JointSmoothingOptions JointOptionsOf(vtkTighten* filter)
 {
-  vtkNew<vtkDoubleArray> array;
-  array->SetName(name);
-  for (const double volume : volumes)
+  JointSmoothingOptions options;
+  options.Rounds = filter->GetRounds();
+  options.Fidelity = filter->GetFidelity();
+  options.TightenIterations = filter->GetTightenIterations();
+  return options;
+}
+
+/// All materials of the collection together, in the order of its blocks.
+void SmoothTogether(
+  std::vector<Job>& jobs, const CollectionHeader& header, const JointSmoothingOptions& options, const Monitor& monitor)
+{
+  std::vector<MaterialMask> masks;
+  for (std::size_t n = 0; n < jobs.size(); ++n)
   {
-    array->InsertNextValue(volume);
+    masks.push_back({ header.Materials[n].Name, jobs[n].Frame, jobs[n].Mask, jobs[n].Options.Radius });
   }
-  fieldData->AddArray(array);
+  std::vector<TightenResult> results =
+    SmoothJointly(header.Source.LatticeOf(header.WorkingFrame()), masks, options, monitor);
+  for (std::size_t n = 0; n < jobs.size(); ++n)
+  {
+    jobs[n].Result = std::move(results[n]);
+  }
+}
+
+/// Share of its volume that a material keeps; 1 where there was none.
+double KeptShare(const TightenResult& result)
+{
+  return result.MaskVolume > 0 ? result.TightVolume / result.MaskVolume : 1.0;
+}
+
+void AddVolumes(vtkFieldData* fieldData, const std::vector<Job>& jobs)
+{
+  vtkNew<vtkDoubleArray> before, after, kept;
+  before->SetName(Names::MaskVolumes);
+  after->SetName(Names::TightVolumes);
+  kept->SetName(Names::KeptVolumes);
+  for (const Job& job : jobs)
+  {
+    before->InsertNextValue(job.Result.MaskVolume);
+    after->InsertNextValue(job.Result.TightVolume);
+    kept->InsertNextValue(KeptShare(job.Result));
+  }
+  for (vtkDoubleArray* array : { before.Get(), after.Get(), kept.Get() })
+  {
+    fieldData->AddArray(array);
+  }
 }
 
 /// What the user should know of materials that are gone or mostly gone; empty when there are none.
@@ -162,8 +201,7 @@ std::string LossesOf(const std::vector<Job>& jobs, const CollectionHeader& heade
   std::size_t count = 0;
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
-    const TightenResult& result = jobs[n].Result;
-    const double kept = result.MaskVolume > 0 ? result.TightVolume / result.MaskVolume : 1.0;
+    const double kept = KeptShare(jobs[n].Result);
     if (kept < 1 - LargeLoss && header.Materials[n].Label != header.Background && ++count <= LongestList)
     {
       char figures[128];
@@ -239,35 +277,40 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
       {
         vtkWarningMacro("SetMaterialRadius names labels that are not among the materials:" << unknown << ".");
       }
-      TightenAll(jobs, header.Materials, monitor);
+      const bool together = this->Smoothing == VolumeKeeping && !jobs.empty();
+      if (together)
+      {
+        SmoothTogether(jobs, header, JointOptionsOf(this), monitor);
+      }
+      else
+      {
+        TightenAll(jobs, header.Materials, monitor);
+      }
       const std::string losses = LossesOf(jobs, header);
       if (!losses.empty())
       {
-        vtkWarningMacro("" << losses
-                           << ". Give what is thin a smaller radius with SetMaterialRadius, or a finer grid with the "
-                           << "resampling factor of Label Split.");
+        vtkWarningMacro("" << losses << ". Give what is thin a smaller radius with SetMaterialRadius, "
+                           << (together ? "" : "volume-keeping smoothing, ")
+                           << "or a finer grid with the resampling factor of Label Split.");
       }
       if (input->GetFieldData())
       {
         output->GetFieldData()->ShallowCopy(input->GetFieldData());
       }
-      std::vector<double> maskVolumes, tightVolumes;
       for (unsigned int n = 0; n < jobs.size(); ++n)
       {
-        maskVolumes.push_back(jobs[n].Result.MaskVolume);
-        tightVolumes.push_back(jobs[n].Result.TightVolume);
         AppendBlock(output, header.Materials[n], FrameOf(BlockImage(input, n)), Names::TightDistance,
           std::move(jobs[n].Result.Distance));
       }
       WriteHeader(output, header);
-      AddVolumes(output->GetFieldData(), Names::MaskVolumes, maskVolumes);
-      AddVolumes(output->GetFieldData(), Names::TightVolumes, tightVolumes);
+      AddVolumes(output->GetFieldData(), jobs);
     });
 }
 
 void vtkTighten::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Smoothing: " << (this->Smoothing == Tightening ? "Tightening" : "VolumeKeeping") << "\n";
   os << indent << "Radius: " << this->Radius << "\n";
   os << indent << "MaterialRadii:";
   for (const auto& [label, radius] : this->MaterialRadii)
@@ -276,4 +319,6 @@ void vtkTighten::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << "\n" << indent << "AntialiasIterations: " << this->AntialiasIterations << "\n";
   os << indent << "TightenIterations: " << this->TightenIterations << "\n";
+  os << indent << "Fidelity: " << this->Fidelity << "\n";
+  os << indent << "Rounds: " << this->Rounds << "\n";
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTighten
- * @brief   Masks become smooth signed distances whose curvature is bounded (paper, section 5.1).
+ * @brief   Masks become smooth signed distances, with their volumes kept or as in the paper (section 5.1).
  *
  * Input port 0 (vtkPartitionedDataSetCollection): the masks, from vtkLabelSplit; block array "Mask".
  *
@@ -10,19 +10,27 @@
  *    clamped to 4 voxels on either side
  *  - field data of the collection: the input's, and MaskVolumes, TightVolumes (float64 x materials, in the order of the
  *    blocks): the volume of each material before and after, world length cubed
+ *  - KeptVolumes (float64 x materials) beside them: TightVolumes / MaskVolumes, 1 for a material without voxels
  * A voxel as a length is the geometric mean of the three spacings.
  *
- * Method (see Core/LevelSet.h), in a narrow band of each material by itself:
+ * Smoothing VolumeKeeping (see Core/JointSmoothing.h), all materials together:
+ *  - exact signed distances of the masks;
+ *  - Rounds of curvature flow, which Fidelity holds to the voxels, each followed by a correction that makes the fields
+ *    one partition again and gives back the volume that the flow took;
+ *  - tightening (Williams and Rossignac 2005): TightenIterations of curvature flow between the opening and the closing
+ *    by a ball of Radius. Then |mean curvature| <= 1 / Radius, and only the mortar between the two bounds has changed.
+ * Smoothing Tightening (the paper's; see Core/LevelSet.h), each material by itself:
  *  - exact signed distance of the mask;
  *  - antialiasing (Whitaker 2000): AntialiasIterations of curvature flow that keep every voxel on its side;
- *  - tightening (Williams and Rossignac 2005): TightenIterations of curvature flow between the opening and the closing
- * by a ball of Radius. Then |mean curvature| <= 1 / Radius, and only the mortar between the two bounds has changed.
+ *  - tightening, as above.
  *
- * Limits: parts thinner than twice the radius vanish, whole small materials with them. The fields of neighbouring
- * materials are smoothed apart from each other: the largest wins where both or neither is positive.
+ * Limits: with Tightening, parts thinner than twice the radius vanish, whole small materials with them, and where
+ * neighbours, smoothed apart from each other, overlap or leave a gap the largest field wins. With VolumeKeeping, plates
+ * of one voxel may thicken by half or vanish, by how they lie in the grid, and single voxels vanish.
  *
- * Errors: blocks without "Mask", options out of range. Warnings: materials that vanish or lose more than half of their
- * volume, with the figures; a radius for a material that does not exist. An empty collection gives an empty collection.
+ * Errors: blocks without "Mask", options out of range; for VolumeKeeping also blocks with a grid of their own.
+ * Warnings: materials that vanish or lose more than half of their volume, with the figures; a radius for a material
+ * that does not exist. An empty collection gives an empty collection.
  */
 #ifndef vtkTighten_h
 #define vtkTighten_h
@@ -42,8 +50,22 @@ public:
   /// The masks, without a pipeline.
   void SetInputData(vtkDataObject* input) { this->SetInputDataInternal(0, input); }
 
+  enum SmoothingMode
+  {
+    VolumeKeeping = 0, ///< all materials together; volumes and thin parts stay
+    Tightening = 1     ///< the paper's: antialiasing, then tightening, each material by itself
+  };
+
   ///@{
-  /// The least radius of curvature, voxels; 0: antialiasing alone. Default 1.
+  /// How to smooth. Default VolumeKeeping.
+  vtkSetClampMacro(Smoothing, int, VolumeKeeping, Tightening);
+  vtkGetMacro(Smoothing, int);
+  void SetSmoothingToVolumeKeeping() { this->SetSmoothing(VolumeKeeping); }
+  void SetSmoothingToTightening() { this->SetSmoothing(Tightening); }
+  ///@}
+
+  ///@{
+  /// The least radius of curvature, voxels; 0: no tightening. Both modes. Default 0.7.
   vtkSetMacro(Radius, double);
   vtkGetMacro(Radius, double);
   ///@}
@@ -57,15 +79,28 @@ public:
   ///@}
 
   ///@{
-  /// Steps of the flow that takes the staircase away. More make kinks. Default 10.
+  /// Steps of the flow that takes the staircase away. More make kinks. Tightening only. Default 10.
   vtkSetClampMacro(AntialiasIterations, int, 0, 10000);
   vtkGetMacro(AntialiasIterations, int);
   ///@}
 
   ///@{
-  /// Steps of the flow between the opening and the closing. Default 20.
+  /// Steps of the flow between the opening and the closing. Both modes. Default 20.
   vtkSetClampMacro(TightenIterations, int, 0, 10000);
   vtkGetMacro(TightenIterations, int);
+  ///@}
+
+  ///@{
+  /// The curvature, 1 / voxel, that it takes to turn a voxel over: larger keeps finer detail, and more staircase.
+  /// VolumeKeeping only. Default 0.85.
+  vtkSetMacro(Fidelity, double);
+  vtkGetMacro(Fidelity, double);
+  ///@}
+
+  ///@{
+  /// Rounds of flow and correction. VolumeKeeping only. Default 8.
+  vtkSetClampMacro(Rounds, int, 0, 1000);
+  vtkGetMacro(Rounds, int);
   ///@}
 
 protected:
@@ -76,10 +111,13 @@ protected:
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  double Radius = 1.0;
+  int Smoothing = VolumeKeeping;
+  double Radius = 0.7;
   std::map<vtkIdType, double> MaterialRadii;
   int AntialiasIterations = 10;
   int TightenIterations = 20;
+  double Fidelity = 0.85;
+  int Rounds = 8;
 
 private:
   vtkTighten(const vtkTighten&) = delete;

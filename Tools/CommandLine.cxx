@@ -139,6 +139,15 @@ std::map<std::string, Action> Actions(CommandLine& line)
         }
         line.Grid = value == "grid";
       } },
+    { "--smoothing",
+      [&line](const std::string&, const std::string& value)
+      {
+        if (value != "volume" && value != "tighten")
+        {
+          Fail("--smoothing is volume or tighten, found '" + value + "'");
+        }
+        line.Tightening = value == "tighten";
+      } },
     { "--radius", number(line.Radius, 0.0) },
     { "--epsilon", number(line.Epsilon, 1e-3) },
     { "--min-length", number(line.MinimumLength, 0.0) },
@@ -209,8 +218,8 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
     Fail(
       "there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
   }
-  for (const char* option :
-    { "--particles", "--radius", "--material", "--epsilon", "--min-length", "--max-length", "--gradation" })
+  for (const char* option : { "--particles", "--smoothing", "--radius", "--material", "--epsilon", "--min-length",
+         "--max-length", "--gradation" })
   {
     if (line.Grid && given.count(option))
     {
@@ -294,10 +303,12 @@ Method:
   --method grid         marching cubes, smoothing, decimation: the baseline to compare with
 
 Particle method (radii in voxels, lengths in world units):
-  --radius R            least radius of curvature after smoothing (default 1)
+  --smoothing volume    all materials together, their volumes and thin parts stay (default)
+  --smoothing tighten   the paper's: each material by itself, smoother; thin parts wear down
+  --radius R            least radius of curvature after smoothing (default 0.7)
   --material LABEL:key=value,...  for one material: radius=R, opening=R, closing=R, max-length=L, name=TEXT,
                         color=#rrggbb; may be given several times
-  --epsilon E           edge length over feature size (default 0.5)
+  --epsilon E           edge length over feature size (default 0.7)
   --min-length L, --max-length L  bounds of the edge length
   --gradation G         how fast edge lengths may change (default 0.4)
 

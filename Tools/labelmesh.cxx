@@ -18,6 +18,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
+#include <vtkTighten.h>
 
 #include <unistd.h>
 
@@ -239,6 +240,7 @@ void Apply(const CommandLine& line, vtkLabelMesher* mesher)
       (mesher->*setter)(*value);
     }
   };
+  mesher->SetSmoothing(line.Tightening ? vtkTighten::Tightening : vtkTighten::VolumeKeeping);
   set(line.Radius, &vtkLabelMesher::SetRadius);
   set(line.Epsilon, &vtkLabelMesher::SetEpsilon);
   set(line.MinimumLength, &vtkLabelMesher::SetMinimumLength);

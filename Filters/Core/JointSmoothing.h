@@ -37,7 +37,7 @@ struct JointSmoothingOptions
 /// shrinkage is cancelled. At last each material is tightened (see Tighten) with a small radius.
 ///
 /// Returns the results in the order of the materials. Throws std::invalid_argument when a frame's samples are not those of
-/// the working lattice, Aborted when the monitor asks to stop.
+/// the working lattice and for options out of range, Aborted when the monitor asks to stop.
 std::vector<TightenResult> SmoothJointly(const Lattice& working, const std::vector<MaterialMask>& materials,
   const JointSmoothingOptions& options, const Monitor& monitor);
 }

@@ -202,6 +202,7 @@ TEST(SizingField, ObeysTheGradationAndTheFormula)
 {
   const SampledFields set = PlateIn(MakeLattice(60, 20, 20), Vec3(1, 0, 0), 10.3, 4.0);
   SizingOptions options;
+  options.Epsilon = 0.5;
   options.Gradation = 0.3;
   const SizingResult result = ComputeSizing(*set, options, nullptr, Monitor());
   const double atPlate = options.Epsilon * 2.0;
@@ -244,6 +245,7 @@ TEST(SizingField, TakesTheUsersImageAsABound)
   user(0, 0, 0) = std::numeric_limits<float>::quiet_NaN();
   user(1, 0, 0) = 0.0f;
   SizingOptions options;
+  options.Epsilon = 0.5;
   const SizingResult free = ComputeSizing(*set, options, nullptr, Monitor());
   const SizingResult bound = ComputeSizing(*set, options, &user, Monitor());
   AtInterface(*set, bound.TargetLength,
@@ -269,6 +271,7 @@ TEST(SizingField, GivesTheSameLengthsOnAnAnisotropicLattice)
 {
   const Vec3 centre(36.3, 36.1, 35.8);
   SizingOptions options;
+  options.Epsilon = 0.5;
   options.FeatureSizeFloor = 0.5;
   const auto median = [&](const SampledFields& set, double& least)
   {

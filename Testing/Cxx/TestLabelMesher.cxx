@@ -107,14 +107,14 @@ TEST(LabelMesher, EqualsTheChainOfItsStages)
   vtkNew<vtkLabelMesher> mesher;
   mesher->SetInputData(volume);
   mesher->SetEpsilon(0.6);
-  mesher->SetMaterialRadius(2, 0.7);
+  mesher->SetMaterialRadius(2, 1.0);
   mesher->Update();
 
   vtkNew<vtkLabelSplit> split;
   split->SetInputDataObject(volume);
   vtkNew<vtkTighten> tighten;
   tighten->SetInputConnection(split->GetOutputPort());
-  tighten->SetMaterialRadius(2, 0.7);
+  tighten->SetMaterialRadius(2, 1.0);
   vtkNew<vtkIndicatorReconstruct> reconstruct;
   reconstruct->SetInputConnection(tighten->GetOutputPort());
   vtkNew<vtkSizingField> sizing;
@@ -129,6 +129,44 @@ TEST(LabelMesher, EqualsTheChainOfItsStages)
   mesh->Update();
   EXPECT_GT(mesh->GetOutput()->GetNumberOfCells(), 100);
   EXPECT_TRUE(BytesOf(mesh->GetOutput()) == BytesOf(mesher->GetOutput()));
+}
+
+TEST(LabelMesher, HandsTheSmoothingOn)
+{
+  const auto volume = TwoSpheres(32);
+  vtkNew<vtkLabelSplit> split;
+  split->SetInputDataObject(volume);
+  vtkNew<vtkTighten> tighten;
+  tighten->SetInputConnection(split->GetOutputPort());
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(volume);
+  EXPECT_EQ(mesher->GetSmoothing(), vtkTighten::VolumeKeeping);
+  const auto kept = [](vtkDataObject* data)
+  { return data->GetFieldData()->GetArray(Names::KeptVolumes)->GetTuple1(1); };
+  double last = 0.0;
+  const auto expectBoth = [&](const char* what)
+  {
+    tighten->Update();
+    mesher->Update();
+    EXPECT_EQ(kept(mesher->GetSurfaces()), kept(tighten->GetOutput())) << what;
+    EXPECT_NE(kept(mesher->GetSurfaces()), last) << what;
+    last = kept(mesher->GetSurfaces());
+  };
+  expectBoth("defaults");
+  mesher->SetFidelity(0.4);
+  tighten->SetFidelity(0.4);
+  expectBoth("Fidelity");
+  mesher->SetRounds(3);
+  tighten->SetRounds(3);
+  expectBoth("Rounds");
+  mesher->SetSmoothingToTightening();
+  tighten->SetSmoothingToTightening();
+  expectBoth("Smoothing");
+  EXPECT_EQ(mesher->GetSmoothing(), vtkTighten::Tightening);
+  EXPECT_EQ(mesher->GetFidelity(), 0.4);
+  EXPECT_EQ(mesher->GetRounds(), 3);
+  mesher->SetSmoothingToVolumeKeeping();
+  EXPECT_EQ(mesher->GetSmoothing(), vtkTighten::VolumeKeeping);
 }
 
 TEST(LabelMesher, RunsOnlyTheStagesThatChanged)
@@ -162,9 +200,9 @@ TEST(LabelMesher, RunsOnlyTheStagesThatChanged)
   EXPECT_EQ(runs(), (std::vector<int>{ 1, 2, 2, 3, 3, 4 }));
   volume->GetPointData()->GetScalars()->Modified();
   volume->Modified();
-  mesher->SetRadius(1.0);
+  mesher->SetRadius(0.7);
   mesher->SetRepairRounds(8);
-  mesher->SetEpsilon(0.5);
+  mesher->SetEpsilon(0.7);
   mesher->Update();
   EXPECT_EQ(runs()[0], 2) << "new data runs everything";
   EXPECT_TRUE(first == BytesOf(mesher->GetOutput())) << "and what is kept has left no trace";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The contract of vtkSizingField.
+#include "Core/SizingField.h"
 #include "TestCollections.h"
 #include "vtkSizingField.h"
 
@@ -52,6 +53,7 @@ TEST(SizingFieldFilter, KeepsItsContractInAnyFrame)
       const GridFrame source = Source(direction, spacing);
       vtkNew<vtkSizingField> filter;
       filter->SetInputDataObject(BallCollection(source));
+      filter->SetEpsilon(0.5);
       filter->SetFeatureSizeFloor(1.0);
       filter->UpdateInformation();
       const auto extent = source.Grown(2).Extent();
@@ -101,6 +103,7 @@ TEST(SizingFieldFilter, TakesTheUsersImageOnAnyGrid)
   user->GetPointData()->AddArray(lengths);
 
   vtkNew<vtkSizingField> filter;
+  filter->SetEpsilon(0.5);
   filter->SetInputDataObject(0, BallCollection(source));
   filter->SetInputDataObject(1, user);
   Listener listener(filter), pipeline(filter->GetExecutive());
@@ -129,6 +132,8 @@ TEST(SizingFieldFilter, PassesItsOptionsOn)
     filter->Update();
     return ValueAt(filter->GetOutput(), Names::TargetLength, source, Centre + Vec3(10, 0, 0));
   };
+  EXPECT_EQ(filter->GetEpsilon(), SizingOptions().Epsilon);
+  EXPECT_EQ(filter->GetFeatureSizeFloor(), SizingOptions().FeatureSizeFloor);
   filter->SetEpsilon(0.25);
   EXPECT_NEAR(atPole(), 2.5, 0.3);
   filter->SetMaximumLength(2);

@@ -92,6 +92,9 @@ for name in FILTERS:
     mine = {method for method in vars(type(algorithm)) if re.match(r"(Set|Add)(?!Input)[A-Z]", method)}
     commands = {prop.GetCommand() for _, prop in properties(proxy)}
     for method in sorted(mine - commands):
+        # SetSmoothingToTightening is SetSmoothing with a name for the number.
+        if re.sub(r"To[A-Z]\w*$", "", method) in commands:
+            continue
         failures.append(f"{name}: nothing in ParaView calls {method}")
 
 print("\n".join(failures) or f"{len(FILTERS)} proxies are right")

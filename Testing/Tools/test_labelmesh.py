@@ -174,6 +174,20 @@ class TestOutput(CommandLineTest):
         self.assertEqual([m["label"] for m in report["materials"]], [2])
         self.assertEqual(report["lost"], [])
 
+    def test_smoothing(self):
+        """A plate of two voxels keeps its volume by default, and wears down when it is tightened by itself."""
+        plate = np.zeros((24, 40, 40), np.uint8)
+        plate[11:13, 5:35, 5:35] = 1
+        make_volumes.write_mha(self.folder / "plate.mha", plate)
+        kept = {}
+        for smoothing in ((), ("--smoothing", "volume"), ("--smoothing", "tighten")):
+            self.mesh("plate.mha", "-o", "m.vtp", "--report", "r.json", "--quiet", *smoothing)
+            material = json.loads((self.folder / "r.json").read_text())["materials"][0]
+            kept[smoothing[-1:]] = material["volume"] / material["voxel_volume"]
+        self.assertEqual(kept[()], kept[("volume",)])
+        self.assertAlmostEqual(kept[()], 1, delta=0.1)
+        self.assertLess(kept[("tighten",)], kept[()] - 0.02)
+
     def test_one_foreground_label_that_fills_the_volume(self):
         make_volumes.write_mha(self.folder / "full.mha", np.full((20, 20, 20), 3, np.uint8))
         self.mesh("full.mha", "-o", "m.vtp", "--report", "r.json", "--quiet")
@@ -245,6 +259,7 @@ class TestRefusals(CommandLineTest):
         self.refuse("needs a value", self.spheres, "-o")
         self.refuse("needs a number", self.spheres, *mesh, "--radius", "wide")
         self.refuse("at least", self.spheres, *mesh, "--radius", "-1")
+        self.refuse("volume or tighten", self.spheres, *mesh, "--smoothing", "none")
         self.refuse("particle or grid", self.spheres, *mesh, "--method", "magic")
         self.refuse("surfaces only", self.spheres, *mesh, "--tets", "t.vtu")
         self.refuse("writes a .vtp file", self.spheres, "-o", "m.stl")
@@ -255,6 +270,7 @@ class TestRefusals(CommandLineTest):
         self.refuse("names label 7", self.spheres, *mesh, "--material", "7:radius=1")
         self.refuse("is none of", self.spheres, *mesh, "--material", "1:size=1")
         self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--epsilon", "0.4")
+        self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--smoothing", "volume")
         self.refuse("larger than", self.spheres, *mesh, "--min-length", "3", "--max-length", "2")
 
     def test_broken_files(self):
