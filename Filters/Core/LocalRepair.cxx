@@ -15,7 +15,8 @@ constexpr double PatchRadius = 5.0; // particles that are tetrahedralised
 constexpr double CoreRadius = 2.5;  // faces with a vertex within are judged
 constexpr double MoveRadius = 2.2;  // particles within may move
 
-constexpr double SameJunction = 0.5; // as in the sampling of curves
+constexpr double SameJunction = 0.5;   // as in the sampling of curves
+constexpr double MergedJunction = 0.8; // two particles of curves this near may become one to mend a triangle
 
 constexpr int RepairSweeps = 12;
 
@@ -238,6 +239,7 @@ std::vector<LocalRepair::Patch> LocalRepair::Variants(
   this->AppendInsertions(patch, site, variants);
   this->AppendSlides(patch, site, variants);
   this->AppendJunctions(patch, site, fault, variants);
+  this->AppendCollapses(patch, site, variants);
   return variants;
 }
 
@@ -324,6 +326,33 @@ void LocalRepair::AppendSlides(const Patch& patch, const std::vector<Index>& sit
       {
         variants.push_back(patch);
         variants.back().Particles[v] = moved;
+      }
+    }
+  }
+}
+
+void LocalRepair::AppendCollapses(
+  const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const
+{
+  for (const Index kept : site)
+  {
+    for (const Index gone : site)
+    {
+      const Particle &p = patch.Particles[kept], &q = patch.Particles[gone];
+      if (kept == gone || p.CellDimension == 2 || q.CellDimension == 2 || p.Materials.Size() < q.Materials.Size())
+      {
+        continue;
+      }
+      const MaterialSet united = United(p.Materials, q.Materials);
+      const bool fits = std::all_of(
+        q.Materials.begin(), q.Materials.end(), [&](MaterialId m) { return united.Contains(m); });
+      const double most = MergedJunction * std::min(p.TargetLength, q.TargetLength);
+      if (fits && (p.Position - q.Position).norm() < most)
+      {
+        Patch variant = patch;
+        variant.Particles[kept].Materials = united;
+        variant.Particles[kept].CellDimension = std::min(p.CellDimension, q.CellDimension);
+        variants.push_back(Without(variant, gone));
       }
     }
   }

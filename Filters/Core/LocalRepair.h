@@ -22,7 +22,7 @@ std::vector<BadSite> FindBadSites(
 
 /// Repairs sites one after another, each as a transaction: the particles within a few target lengths are tetrahedralised
 /// by themselves (the empty balls of interface faces are small, so that the faces around the site are those of the whole),
-/// changes are tried (relaxing, deleting a vertex, joining two, sliding one along its curve, adding one on a surface or a
+/// changes are tried (relaxing, deleting a vertex, joining two, sliding one along its curve, merging two of curves, adding one on a surface or a
 /// curve, uniting a junction with one closer than half a target length), and the best one is kept if the faces around the site have become better. A site that has been touched waits for the next pass.
 class LocalRepair
 {
@@ -54,6 +54,7 @@ private:
     std::vector<Patch>& variants) const;
   void AppendDeletions(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
   void AppendInsertions(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
+  void AppendCollapses(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
   void AppendSlides(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
   void AppendJunctions(
     const Patch& patch, const std::vector<Index>& site, const BadSite& fault, std::vector<Patch>& variants) const;
