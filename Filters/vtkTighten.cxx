@@ -3,6 +3,7 @@
 
 #include "Core/JointSmoothing.h"
 #include "Core/Parallel.h"
+#include "Core/PartitionVolumes.h"
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
@@ -176,6 +177,36 @@ double KeptShare(const TightenResult& result)
   return result.MaskVolume > 0 ? result.TightVolume / result.MaskVolume : 1.0;
 }
 
+/// Takes as each material's volume what it holds among all of them; alone, one that its neighbours fill up would look smaller
+/// than its mesh will be. The outermost half voxels of the working grid, which no cell covers, are background.
+void MeasurePartition(std::vector<Job>& jobs, const CollectionHeader& header)
+{
+  if (jobs.empty())
+  {
+    return;
+  }
+  const Lattice working = header.WorkingFrame().Samples();
+  std::vector<IndicatorBlock> blocks;
+  for (std::size_t n = 0; n < jobs.size(); ++n)
+  {
+    const double end = jobs[n].Options.Band * jobs[n].Frame.VoxelSize();
+    const LabelMesh::Label label = header.Materials[n].Label;
+    blocks.push_back({ label, jobs[n].Frame, jobs[n].Result.Distance.data(), label == header.Background ? end : -end });
+  }
+  const IndicatorSet partition(std::move(blocks), header.Background, working);
+  const std::vector<double> volumes = PartitionVolumes(partition);
+  double rest = double(working.Size()) * working.VoxelVolume();
+  for (std::size_t n = 0; n < jobs.size(); ++n)
+  {
+    jobs[n].Result.TightVolume = volumes[n];
+    rest -= volumes[n];
+  }
+  if (partition.Background() != NoMaterial)
+  {
+    jobs[partition.Background()].Result.TightVolume += rest;
+  }
+}
+
 void AddVolumes(vtkFieldData* fieldData, const std::vector<Job>& jobs)
 {
   vtkNew<vtkDoubleArray> before, after, kept;
@@ -286,6 +317,7 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
       {
         TightenAll(jobs, header.Materials, monitor);
       }
+      MeasurePartition(jobs, header);
       const std::string losses = LossesOf(jobs, header);
       if (!losses.empty())
       {

@@ -9,7 +9,8 @@
  *  - block point data "TightDistance" (float32): signed distance to the material's surface, world length, > 0 inside,
  *    clamped to 4 voxels on either side
  *  - field data of the collection: the input's, and MaskVolumes, TightVolumes (float64 x materials, in the order of the
- *    blocks): the volume of each material before and after, world length cubed
+ *    blocks): the volume of each material before and after, world length cubed; after: where its distance is
+ *    the largest, which is what a mesh will enclose
  *  - KeptVolumes (float64 x materials) beside them: TightVolumes / MaskVolumes, 1 for a material without voxels
  * A voxel as a length is the geometric mean of the three spacings.
  *
