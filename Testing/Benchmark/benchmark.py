@@ -230,7 +230,10 @@ def show(table, rows):
 def main(arguments):
     options = parse(arguments)
     result = {"machine": platform.processor() or platform.machine(), "cores": os.cpu_count(),
-              "repeat": options.repeat, "options": options.options}
+              "load": os.getloadavg()[0], "repeat": options.repeat, "options": options.options}
+    if result["load"] > 0.3:
+        print(f"Others use this machine: {result['load']:.1f} programs ran in the last minute, on {result['cores']} "
+              "cores. Their work shows in the times.")
     try:
         if not options.labelmesh.is_file():
             raise Problem(f"no executable '{options.labelmesh}'; ./setup.sh build makes it, --labelmesh names another")
