@@ -246,9 +246,9 @@ def main(arguments):
                 rows = list(globals()[table](bench))
                 if table in ("sizes", "particles"):
                     add_powers(rows, "voxels" if table == "sizes" else "particles")
-                show(table, rows)
                 result[table] = rows
                 options.json.write_text(json.dumps(result, indent=1) + "\n")
+                show(table, rows)
     except Problem as problem:
         print(f"benchmark.py: {problem}", file=sys.stderr)
         return 1
