@@ -275,6 +275,8 @@ private:
   void Follow(OneCell& curve, Vec3 tangent)
   {
     PositionHash passed(this->Voxel);
+    const double sense =
+      CurveTangent(this->Indicators, curve.Materials.data(), curve.Points.back()).dot(tangent) < 0 ? -1.0 : 1.0;
     double step = StepLength * this->Voxel;
     for (Index n = 0; n < MostSteps; ++n)
     {
@@ -282,8 +284,10 @@ private:
       const Projection p = ProjectToJunction(this->Indicators, curve.Materials.data(), 3, from + step * tangent, { 6, 1e-3, 0.3 });
       const Vec3 move = p.Position - from;
       const double moved = move.norm();
-      Vec3 next = p.Converged ? CurveTangent(this->Indicators, curve.Materials.data(), p.Position) : Vec3::Zero();
-      next = next.dot(tangent) < 0 ? Vec3(-next) : next;
+      // Equation 8 turns the tangent of the other side of a thin sliver round: taking no turn means that a step does not
+      // end on the neighbouring curve.
+      const Vec3 next = p.Converged ? Vec3(sense * CurveTangent(this->Indicators, curve.Materials.data(), p.Position))
+                                    : Vec3(Vec3::Zero());
       const bool smooth = p.Converged && moved < 1.5 * step && moved > 0.5 * step && move.dot(tangent) > 0.7 * moved &&
         next.dot(tangent) > 0.7;
       if (!smooth)
@@ -304,7 +308,7 @@ private:
       const Index met = this->MetAgain(curve, passed, from, p.Position);
       if (met >= 0)
       {
-        // Mostly at its start. Where two stretches are closer than a step it may have come onto a loop from outside.
+        // At its start; where the steps had to be small, at one of its first points.
         curve.Closed = curve.Start < 0;
         curve.Points.erase(curve.Points.begin(), curve.Points.begin() + (curve.Closed ? met : 0));
         return;
@@ -405,22 +409,25 @@ private:
   {
     const double radius = VisitedDistance * this->Voxel;
     return this->VisitedHash.AnyNear(x,
-      [&](Index point)
+      [&](Index n)
       {
-        const auto& [curve, at] = this->VisitedPoints[point];
-        const OneCell& other = this->Network.OneCells[curve];
-        return other.Materials == triple && (other.Points[at] - x).norm() < radius;
+        const VisitedPoint& point = this->VisitedPoints[n];
+        return point.Materials == triple && (point.Position - x).norm() < radius;
       });
+  }
+
+  void MarkVisited(const Triple& triple, const Vec3* points, Index count)
+  {
+    for (Index n = 0; n < count; ++n)
+    {
+      this->VisitedHash.Insert(points[n], Index(this->VisitedPoints.size()));
+      this->VisitedPoints.push_back({ points[n], triple });
+    }
   }
 
   void Accept(OneCell&& curve)
   {
-    const Index id = Index(this->Network.OneCells.size());
-    for (std::size_t at = 0; at < curve.Points.size(); ++at)
-    {
-      this->VisitedHash.Insert(curve.Points[at], Index(this->VisitedPoints.size()));
-      this->VisitedPoints.emplace_back(id, at);
-    }
+    this->MarkVisited(curve.Materials, curve.Points.data(), Index(curve.Points.size()));
     for (const Index end : { curve.Start, curve.End })
     {
       if (end >= 0)
@@ -447,7 +454,12 @@ private:
   double Reach; // world length
   JunctionNetwork Network;
   PositionHash ZeroCellHash, VisitedHash;
-  std::vector<std::pair<Index, std::size_t>> VisitedPoints; // curve, point
+  struct VisitedPoint
+  {
+    Vec3 Position;
+    Triple Materials;
+  };
+  std::vector<VisitedPoint> VisitedPoints;
   std::unordered_map<End, int, EndHash> Ends;
   Index NextZeroCell = 0;
 };

@@ -72,3 +72,19 @@ TEST(CurveTracing, EveryZeroCellOfAVoronoiDiagramHasOneCurveEndPerTriple)
     }
   }
 }
+
+TEST(CurveTracing, DoesNotStepOverToTheOtherSideOfASliver)
+{
+  // The third material is largest within an ellipse of half axes 9 and 0.5 voxels: its border runs along itself at a
+  // distance of no more than a voxel, turns sharply, and comes back.
+  const Vec3 centre(20.05, 19.8, 20.005); // so that samples lie inside
+  const auto height = [=](const Vec3& x) { return x[2] - centre[2]; };
+  const SampledFields fields(MakeLattice(40, 40, 40),
+    { [=](const Vec3& x) { return height(x); }, [=](const Vec3& x) { return -height(x); },
+      [=](const Vec3& x)
+      { return 0.01 * (1 - std::pow((x[0] - centre[0]) / 0.5, 2) - std::pow((x[1] - centre[1]) / 9, 2)); } });
+  const JunctionNetwork network = TraceJunctions(*fields, Monitor());
+  ASSERT_EQ(network.OneCells.size(), 1u);
+  EXPECT_TRUE(network.OneCells[0].Closed);
+  EXPECT_NEAR(Length(network.OneCells[0]), 36.1, 0.3);
+}
