@@ -82,7 +82,7 @@ protected:
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  int Sweeps = 30;
+  int Sweeps = 40;
   int Seed = 1;
   vtkIdType CellParticles[3] = { 0, 0, 0 };
   vtkIdType OpenCurveEnds = 0;

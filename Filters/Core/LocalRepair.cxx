@@ -12,11 +12,16 @@ namespace
 {
 // In target lengths of the site.
 constexpr double PatchRadius = 5.0; // particles that are tetrahedralised
+constexpr double LargestPatch = 30.0;
 constexpr double CoreRadius = 2.5;  // faces with a vertex within are judged
 constexpr double MoveRadius = 2.2;  // particles within may move
 
 constexpr double SameJunction = 0.5;   // as in the sampling of curves
 constexpr double MergedJunction = 0.8; // two particles of curves this near may become one to mend a triangle
+
+// Where lengths are shortest they grow fast all around: fewer particles would be the site without its surroundings, and
+// the tetrahedra at the rim of the patch would be taken for its faces.
+constexpr std::size_t SmallestPatch = 150;
 
 constexpr int RepairSweeps = 12;
 
@@ -171,14 +176,18 @@ LocalRepair::Patch LocalRepair::PatchAround(const BadSite& site) const
     patch.Centre += this->Particles[v].Position / double(site.Vertices.size());
     patch.Length += this->Particles[v].TargetLength / double(site.Vertices.size());
   }
-  this->Grid.VisitWithin(patch.Centre, PatchRadius * patch.Length, 0.0,
-    [&](Index n, double)
-    {
-      if (!this->Deleted[n])
+  for (double radius = PatchRadius; radius < LargestPatch && patch.Ids.size() < SmallestPatch; radius *= 1.4)
+  {
+    patch.Ids.clear();
+    this->Grid.VisitWithin(patch.Centre, radius * patch.Length, 0.0,
+      [&](Index n, double)
       {
-        patch.Ids.push_back(n);
-      }
-    });
+        if (!this->Deleted[n])
+        {
+          patch.Ids.push_back(n);
+        }
+      });
+  }
   std::sort(patch.Ids.begin(), patch.Ids.end());
   for (const Index n : patch.Ids)
   {

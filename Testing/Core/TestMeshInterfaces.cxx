@@ -233,6 +233,31 @@ TEST(LocalRepair, MendsASliverAndNothingElse)
   EXPECT_LT(moved, 40);
 }
 
+TEST(LocalRepair, SeesTheSurroundingsOfASiteWhereLengthsGrowFast)
+{
+  // A thin tip's sizing: shortest at one point of the ball, growing by 0.4 per length from there.
+  const SampledFields fields(Frame, { Not(Ball(Centre, 15)), Ball(Centre, 15) });
+  const Vec3 tip = Centre + Vec3(0, 0, 15);
+  Grid<float> targetLength(Frame);
+  for (Index at = 0; at < Frame.Size(); ++at)
+  {
+    const auto c = Frame.Coordinates(at);
+    targetLength.Values[at] = float(0.25 + 0.4 * (Frame.Position(c[0], c[1], c[2]) - tip).norm());
+  }
+  SampleResult samples = SampleCells(*fields, targetLength, SampleOptions(), Monitor());
+  std::size_t finest = 0;
+  for (std::size_t n = 0; n < samples.Particles.size(); ++n)
+  {
+    finest = samples.Particles[n].TargetLength < samples.Particles[finest].TargetLength ? n : finest;
+  }
+  Particle extra = samples.Particles[finest];
+  extra.Position = Centre + 15.0 * (extra.Position + Vec3(0.03, 0.02, 0) - Centre).normalized();
+  samples.Particles.push_back(extra);
+  const MeshResult mended = MeshInterfaces(*fields, samples.Particles, MeshOptions(), Monitor());
+  EXPECT_EQ(mended.BadTriangles, 0);
+  EXPECT_EQ(mended.WrongFaces + mended.NonManifoldEdges, 0);
+}
+
 TEST(MeshInterfaces, NoParticlesGiveNoMesh)
 {
   const SampledFields fields(Frame, { [](const Vec3&) { return 1.0; }, [](const Vec3&) { return -1.0; } });
