@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The filters one after the other give what Label Mesher gives, byte by byte; and the baseline and the report run."""
 import os
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from common import blocks, content, open_volume, output  # noqa: E402
 
-from paraview.simple import Calculator, LoadPlugin  # noqa: E402
+from paraview.simple import Calculator, LoadPlugin, XMLPolyDataReader  # noqa: E402
 
 LoadPlugin(os.environ["LABELMESH_PLUGIN"], remote=False, ns=globals())
 
@@ -83,5 +84,14 @@ for row in (1, 2):
     assert abs(volume_of_mesh / of_tight - 1) < 0.03, (row, volume_of_mesh, of_tight)
 assert output(report, 1).GetNumberOfRows() == 3, output(report, 1).GetNumberOfRows()
 assert output(LabelMeshReport(Input=grid)).GetNumberOfRows() == 3
+
+# The command line makes the same mesh as Label Mesher with its defaults.
+path = os.path.join(os.environ["LABELMESH_VOLUMES"], "two_spheres_small.mha")
+subprocess.run([os.environ["LABELMESH_EXECUTABLE"], path, "-o", "command_line.vtp", "--quiet"], check=True)
+written = XMLPolyDataReader(FileName="command_line.vtp")
+default = LabelMesher(Input=volume, LabelArray=LABELS)
+mine, theirs = content(output(default))[0], content(output(written))[0]
+assert mine[1] == theirs[1] and mine[2] == theirs[2], "the command line's points or triangles differ"
+assert mine[4]["BoundaryLabels"] == theirs[4]["BoundaryLabels"], "the command line's labels differ"
 
 print(f"{interfaces.GetNumberOfPolys()} triangles, the same by stages and in one")
