@@ -15,27 +15,27 @@ inline constexpr char Label[] = "Label"; ///< int64 x 1; also the point array of
 inline constexpr char Color[] = "Color"; ///< float64 x 3, 0 to 1
 
 // Field data of a collection, and of the interface mesh where it applies.
-inline constexpr char Labels[] = "Labels";                     ///< int64 x N, ascending
-inline constexpr char MaterialNames[] = "MaterialNames";       ///< string x N
-inline constexpr char MaterialColors[] = "MaterialColors";     ///< float64 x 3 x N, 0 to 1
-inline constexpr char BackgroundLabel[] = "BackgroundLabel";   ///< int64
-inline constexpr char VoxelSize[] = "VoxelSize";               ///< float64 x 3: spacing of the source grid
-inline constexpr char SourceExtent[] = "SourceExtent";         ///< int32 x 6
-inline constexpr char SourceOrigin[] = "SourceOrigin";         ///< float64 x 3
-inline constexpr char SourceDirection[] = "SourceDirection";   ///< float64 x 9, row by row
-inline constexpr char Padding[] = "Padding";                   ///< int32: samples around the source grid
-inline constexpr char IndicatorKernel[] = "IndicatorKernel";   ///< string
-inline constexpr char MaskVolumes[] = "MaskVolumes";           ///< float64 x N, world length cubed
-inline constexpr char TightVolumes[] = "TightVolumes";         ///< float64 x N, world length cubed
-inline constexpr char KeptVolumes[] = "KeptVolumes";           ///< float64 x N, TightVolumes / MaskVolumes
-inline constexpr char IndicatorsRoot[] = "Indicators";         ///< root of a collection's assembly
+inline constexpr char Labels[] = "Labels";                   ///< int64 x N, ascending
+inline constexpr char MaterialNames[] = "MaterialNames";     ///< string x N
+inline constexpr char MaterialColors[] = "MaterialColors";   ///< float64 x 3 x N, 0 to 1
+inline constexpr char BackgroundLabel[] = "BackgroundLabel"; ///< int64
+inline constexpr char VoxelSize[] = "VoxelSize";             ///< float64 x 3: spacing of the source grid
+inline constexpr char SourceExtent[] = "SourceExtent";       ///< int32 x 6
+inline constexpr char SourceOrigin[] = "SourceOrigin";       ///< float64 x 3
+inline constexpr char SourceDirection[] = "SourceDirection"; ///< float64 x 9, row by row
+inline constexpr char Padding[] = "Padding";                 ///< int32: samples around the source grid
+inline constexpr char IndicatorKernel[] = "IndicatorKernel"; ///< string
+inline constexpr char MaskVolumes[] = "MaskVolumes";         ///< float64 x N, world length cubed
+inline constexpr char TightVolumes[] = "TightVolumes";       ///< float64 x N, world length cubed
+inline constexpr char KeptVolumes[] = "KeptVolumes";         ///< float64 x N, TightVolumes / MaskVolumes
+inline constexpr char IndicatorsRoot[] = "Indicators";       ///< root of a collection's assembly
 inline constexpr char SurfacesRoot[] = "Surfaces";
 inline constexpr char CatmullRom[] = "CatmullRom";
 
 // Images.
-inline constexpr char Margin[] = "Margin";             ///< float32, world length: largest minus second indicator
-inline constexpr char TargetLength[] = "TargetLength"; ///< float32, world length; also on particles
-inline constexpr char FeatureSize[] = "FeatureSize";   ///< float32, world length
+inline constexpr char Margin[] = "Margin";                ///< float32, world length: largest minus second indicator
+inline constexpr char TargetLength[] = "TargetLength";    ///< float32, world length; also on particles
+inline constexpr char FeatureSize[] = "FeatureSize";      ///< float32, world length
 inline constexpr char InsideOutside[] = "InsideOutside_"; ///< prefix; eq. 1
 inline constexpr char CellIndicator[] = "CellIndicator";  ///< eq. 2 to 4
 
@@ -45,8 +45,9 @@ inline constexpr char NumberOfMaterials[] = "NumberOfMaterials"; ///< uint8
 inline constexpr char Materials[] = "Materials";                 ///< int64 x 8, ascending, the rest repeats the last
 inline constexpr char Residual[] = "Residual";                   ///< float64, world length
 inline constexpr char Normal[] = "Normal";                       ///< float64 x 3 (particles on 2-cells; else zero)
-inline constexpr char BoundaryLabels[] = "BoundaryLabels";       ///< cells, int64 x 2: normal points from the first to the second
-inline constexpr char RadiusRatio[] = "RadiusRatio";             ///< cells, float64: 2 r_in / r_circ
+inline constexpr char BoundaryLabels[] =
+  "BoundaryLabels";                                  ///< cells, int64 x 2: normal points from the first to the second
+inline constexpr char RadiusRatio[] = "RadiusRatio"; ///< cells, float64: 2 r_in / r_circ
 }
 
 #endif

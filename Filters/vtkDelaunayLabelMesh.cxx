@@ -15,6 +15,11 @@
 
 vtkStandardNewMacro(vtkDelaunayLabelMesh);
 
+namespace
+{
+constexpr double PoorRatio = 0.3; // a mesh with a worse triangle gets a warning
+}
+
 vtkDelaunayLabelMesh::vtkDelaunayLabelMesh()
 {
   this->SetNumberOfInputPorts(2);
@@ -65,14 +70,16 @@ int vtkDelaunayLabelMesh::RequestData(
       this->RoundsDone = result.Rounds;
       this->WrongFaces = result.WrongFaces;
       this->NonManifoldEdges = result.NonManifoldEdges;
-      if (result.WrongFaces > 0 || result.NonManifoldEdges > 0)
+      this->NonManifoldVertices = result.NonManifoldVertices;
+      this->WorstRadiusRatio = result.WorstRatio;
+      if (result.WrongFaces + result.NonManifoldEdges + result.NonManifoldVertices > 0 || result.WorstRatio < PoorRatio)
       {
-        vtkWarningMacro("The mesh has "
-          << result.WrongFaces
-          << " faces between materials that are not at all their "
-             "vertices and "
-          << result.NonManifoldEdges << " non-manifold edges after " << result.Rounds
-          << " rounds of repair. Finer sizing (Epsilon, FeatureSizeFloor) or more RepairRounds may help.");
+        vtkWarningMacro(
+          "After " << result.Rounds << " rounds of repair the mesh has " << result.WrongFaces
+                   << " faces between materials that are not at all their vertices, " << result.NonManifoldEdges
+                   << " non-manifold edges, " << result.NonManifoldVertices
+                   << " non-manifold vertices, and its worst triangle has a radius ratio of " << result.WorstRatio
+                   << ". A smaller Epsilon, FeatureSizeFloor or MinimumLength, or more RepairRounds may help.");
       }
       InterfaceToPolyData(result.Mesh, header, output);
       SurfacesOfMaterials(output, surfaces);
@@ -89,4 +96,6 @@ void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RoundsDone: " << this->RoundsDone << "\n";
   os << indent << "WrongFaces: " << this->WrongFaces << "\n";
   os << indent << "NonManifoldEdges: " << this->NonManifoldEdges << "\n";
+  os << indent << "NonManifoldVertices: " << this->NonManifoldVertices << "\n";
+  os << indent << "WorstRadiusRatio: " << this->WorstRadiusRatio << "\n";
 }

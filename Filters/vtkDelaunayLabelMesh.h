@@ -61,12 +61,16 @@ public:
   ///@{
   /**
    * After an update: tetrahedra of the Delaunay triangulation; rounds of repair; and what repair left: faces whose two
-   * materials are not in the sets of all their vertices, edges that a material's surface does not use exactly twice.
+   * materials are not in the sets of all their vertices, edges that a material's surface does not use exactly twice,
+   * vertices where it has more than one fan, and the smallest radius ratio. A warning gives these figures when a count
+   * is not zero or the ratio is below 0.3.
    */
   vtkGetMacro(NumberOfTetrahedra, vtkIdType);
   vtkGetMacro(RoundsDone, int);
   vtkGetMacro(WrongFaces, vtkIdType);
   vtkGetMacro(NonManifoldEdges, vtkIdType);
+  vtkGetMacro(NonManifoldVertices, vtkIdType);
+  vtkGetMacro(WorstRadiusRatio, double);
   ///@}
 
   /// Output port 1.
@@ -86,6 +90,8 @@ protected:
   int RoundsDone = 0;
   vtkIdType WrongFaces = 0;
   vtkIdType NonManifoldEdges = 0;
+  vtkIdType NonManifoldVertices = 0;
+  double WorstRadiusRatio = 1.0;
 
 private:
   vtkDelaunayLabelMesh(const vtkDelaunayLabelMesh&) = delete;

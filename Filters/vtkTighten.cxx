@@ -177,8 +177,8 @@ double KeptShare(const TightenResult& result)
   return result.MaskVolume > 0 ? result.TightVolume / result.MaskVolume : 1.0;
 }
 
-/// Takes as each material's volume what it holds among all of them; alone, one that its neighbours fill up would look smaller
-/// than its mesh will be. The outermost half voxels of the working grid, which no cell covers, are background.
+/// Takes as each material's volume what it holds among all of them; alone, one that its neighbours fill up would look
+/// smaller than its mesh will be. The outermost half voxels of the working grid, which no cell covers, are background.
 void MeasurePartition(std::vector<Job>& jobs, const CollectionHeader& header)
 {
   if (jobs.empty())

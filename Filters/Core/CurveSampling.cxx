@@ -33,8 +33,7 @@ public:
     }
     std::vector<Index> order(arcs.size());
     std::iota(order.begin(), order.end(), Index(0));
-    std::stable_sort(
-      order.begin(), order.end(), [&](Index a, Index b) { return arcs[a].back() > arcs[b].back(); });
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return arcs[a].back() > arcs[b].back(); });
     for (const Index c : order)
     {
       this->PlaceCurve(this->Network.OneCells[c], arcs[c]);
@@ -53,7 +52,8 @@ private:
     particle.CellDimension = std::uint8_t(dimension);
     particle.TargetLength = this->LengthAt(x);
     const MaterialId* m = materials.begin();
-    particle.Residual = ProjectToJunction(this->Indicators, m, std::min(materials.Size(), 4), x, { 1, 0, 1e9 }).Residual;
+    particle.Residual =
+      ProjectToJunction(this->Indicators, m, std::min(materials.Size(), 4), x, { 1, 0, 1e9 }).Residual;
     this->Result.Particles.push_back(particle);
     this->Placed.Insert(x, particle.TargetLength);
     this->Adjacent.emplace_back();
@@ -200,8 +200,8 @@ private:
     this->Adjacent[b].push_back(a);
   }
 
-  /// The particle at x on a curve that comes from `predecessor`: a new one, or one of a sampled curve that passes closer
-  /// than the merge distance, which then gets the materials.
+  /// The particle at x on a curve that comes from `predecessor`: a new one, or one of a sampled curve that passes
+  /// closer than the merge distance, which then gets the materials.
   Index PlaceOrAbsorb(const Vec3& x, const MaterialSet& materials, Index predecessor)
   {
     const double h = this->LengthAt(x);

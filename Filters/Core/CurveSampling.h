@@ -18,7 +18,8 @@ struct CurveSamples
 /// One particle per 0-cell, and along each 1-cell particles at equal integrals of ds / h. In one dimension that is the
 /// minimum of the particles' energy: nothing needs to relax. What is closer than half a target length is merged, its
 /// materials united: 0-cells first, then curves, the longest first.
-CurveSamples SampleCurves(const JunctionNetwork& network, const IndicatorSet& indicators, const Grid<float>& targetLength);
+CurveSamples SampleCurves(
+  const JunctionNetwork& network, const IndicatorSet& indicators, const Grid<float>& targetLength);
 }
 
 #endif

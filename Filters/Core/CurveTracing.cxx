@@ -17,7 +17,7 @@ constexpr double StepLength = 0.2;
 constexpr double SmallestStep = 0.02;
 constexpr double SameZeroCell = 0.05; // two solutions for the same four materials this close are one
 constexpr double VisitedDistance = 0.6;
-constexpr double SeedReach = 1.5; // how far a solution may lie from the cell that suggested it
+constexpr double SeedReach = 1.5;       // how far a solution may lie from the cell that suggested it
 constexpr double ClosingDistance = 0.1; // how near to where it was a closed curve passes again
 constexpr Index MostSteps = 1000000;
 
@@ -158,7 +158,10 @@ private:
   {
     Index ZeroCell;
     Triple Materials;
-    bool operator==(const End& other) const { return this->ZeroCell == other.ZeroCell && this->Materials == other.Materials; }
+    bool operator==(const End& other) const
+    {
+      return this->ZeroCell == other.ZeroCell && this->Materials == other.Materials;
+    }
   };
   struct EndHash
   {
@@ -281,11 +284,12 @@ private:
     for (Index n = 0; n < MostSteps; ++n)
     {
       const Vec3 from = curve.Points.back();
-      const Projection p = ProjectToJunction(this->Indicators, curve.Materials.data(), 3, from + step * tangent, { 6, 1e-3, 0.3 });
+      const Projection p =
+        ProjectToJunction(this->Indicators, curve.Materials.data(), 3, from + step * tangent, { 6, 1e-3, 0.3 });
       const Vec3 move = p.Position - from;
       const double moved = move.norm();
-      // Equation 8 turns the tangent of the other side of a thin sliver round: taking no turn means that a step does not
-      // end on the neighbouring curve.
+      // Equation 8 turns the tangent of the other side of a thin sliver round: taking no turn means that a step does
+      // not end on the neighbouring curve.
       const Vec3 next = p.Converged ? Vec3(sense * CurveTangent(this->Indicators, curve.Materials.data(), p.Position))
                                     : Vec3(Vec3::Zero());
       const bool smooth = p.Converged && moved < 1.5 * step && moved > 0.5 * step && move.dot(tangent) > 0.7 * moved &&

@@ -20,7 +20,7 @@ struct ZeroCell
 struct OneCell
 {
   std::array<MaterialId, 3> Materials{ NoMaterial, NoMaterial, NoMaterial }; ///< ascending
-  std::vector<Vec3> Points; ///< with the positions of the 0-cells at its ends
+  std::vector<Vec3> Points;   ///< with the positions of the 0-cells at its ends
   Index Start = -1, End = -1; ///< 0-cells; -1 at both ends of a closed curve and at an open end
   bool Closed = false;
 };
@@ -35,8 +35,8 @@ struct JunctionNetwork
 
 /// Seeds are the cells of the working lattice whose corners carry four or more labels (0-cells) and three or more
 /// (1-cells). From each 0-cell its four triples are traced, starting to where the fourth material falls, with steps of
-/// 0.2 voxel and a Gauss-Newton corrector; where a fourth material wins, that 0-cell is solved and the curve ends there.
-/// Left-over three-label seeds give closed curves and those between 0-cells that the lattice does not show.
+/// 0.2 voxel and a Gauss-Newton corrector; where a fourth material wins, that 0-cell is solved and the curve ends
+/// there. Left-over three-label seeds give closed curves and those between 0-cells that the lattice does not show.
 JunctionNetwork TraceJunctions(const IndicatorSet& indicators, const Monitor& monitor);
 }
 

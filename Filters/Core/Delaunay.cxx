@@ -57,7 +57,8 @@ bool SpansSpace(const std::vector<Vec3>& points)
     next(
       [&](const Vec3& v)
       {
-        normal = Vec3(first[1] * v[2] - first[2] * v[1], first[2] * v[0] - first[0] * v[2], first[0] * v[1] - first[1] * v[0]);
+        normal =
+          Vec3(first[1] * v[2] - first[2] * v[1], first[2] * v[0] - first[0] * v[2], first[0] * v[1] - first[1] * v[0]);
         return normal.squaredNorm() > 1e-24 * first.squaredNorm() * v.squaredNorm();
       }) &&
     next([&](const Vec3& v) { return std::abs(normal.dot(v)) > 1e-12 * normal.norm() * v.norm(); });
@@ -95,7 +96,8 @@ Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points)
   }
   catch (int code)
   {
-    throw std::runtime_error("TetGen could not tetrahedralise " + std::to_string(points.size()) + " points: " + Reason(code));
+    throw std::runtime_error(
+      "TetGen could not tetrahedralise " + std::to_string(points.size()) + " points: " + Reason(code));
   }
   result.Corners.resize(output.numberoftetrahedra);
   result.Neighbors.resize(output.numberoftetrahedra);

@@ -18,8 +18,8 @@ struct Tetrahedralization
   Index Size() const { return Index(this->Corners.size()); }
 };
 
-/// The Delaunay tetrahedra of the points, by TetGen. Points may be fewer than four or all in a plane: no tetrahedra then.
-/// One at a time per process: TetGen is not thread-safe. Throws std::runtime_error with TetGen's reason.
+/// The Delaunay tetrahedra of the points, by TetGen. Points may be fewer than four or all in a plane: no tetrahedra
+/// then. One at a time per process: TetGen is not thread-safe. Throws std::runtime_error with TetGen's reason.
 Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points);
 }
 

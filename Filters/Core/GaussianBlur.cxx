@@ -42,7 +42,8 @@ GaussianBlur::GaussianBlur(const Lattice& frame, double sigma, std::vector<RowRa
   this->AfterX = this->Rows;
   for (RowRange& range : this->AfterX)
   {
-    range = range.Empty() ? range : RowRange{ std::max<Index>(0, range.First - reachX), std::min(nx, range.Last + reachX) };
+    range =
+      range.Empty() ? range : RowRange{ std::max<Index>(0, range.First - reachX), std::min(nx, range.Last + reachX) };
   }
   this->AfterY.resize(this->AfterX.size());
   for (Index k = 0; k < nz; ++k)
@@ -67,7 +68,8 @@ void GaussianBlur::Clear(std::vector<float>& field) const
       for (Index row = first; row < last; ++row)
       {
         const RowRange& range = this->Rows[row];
-        std::fill(field.begin() + row * nx + range.First, field.begin() + row * nx + std::max(range.First, range.Last), 0.0f);
+        std::fill(
+          field.begin() + row * nx + range.First, field.begin() + row * nx + std::max(range.First, range.Last), 0.0f);
       }
     });
 }
@@ -113,8 +115,8 @@ void GaussianBlur::AlongX(std::vector<float>& field) const
     });
 }
 
-/// Sets of `count` rows, `rowStep` rows apart, set s starting at row s * setRows: each row becomes the weighted sum of its
-/// neighbours in the set.
+/// Sets of `count` rows, `rowStep` rows apart, set s starting at row s * setRows: each row becomes the weighted sum of
+/// its neighbours in the set.
 void GaussianBlur::Across(Index sets, Index setRows, Index count, Index rowStep, const std::vector<float>& kernel,
   const std::vector<RowRange>& from, const std::vector<RowRange>& to, std::vector<float>& field) const
 {

@@ -17,8 +17,8 @@ struct RowRange
   bool Empty() const { return this->First >= this->Last; }
 };
 
-/// Convolution with a Gaussian of standard deviation `sigma` (same unit as the spacing), cut at three of them, restricted to
-/// one range of each row: what lies beyond the ranges is taken as zero and is not computed.
+/// Convolution with a Gaussian of standard deviation `sigma` (same unit as the spacing), cut at three of them,
+/// restricted to one range of each row: what lies beyond the ranges is taken as zero and is not computed.
 class GaussianBlur
 {
 public:
@@ -37,7 +37,7 @@ private:
 
   std::array<int, 3> Dims;
   std::array<std::vector<float>, 3> Kernels;
-  std::vector<RowRange> Rows; ///< of the result
+  std::vector<RowRange> Rows;           ///< of the result
   std::vector<RowRange> AfterX, AfterY; ///< where the passes leave values
 };
 }

@@ -8,8 +8,7 @@
 
 namespace LabelMesh
 {
-GridFrame::GridFrame(
-  const std::array<int, 6>& extent, const Vec3& origin, const Vec3& spacing, const Mat3& direction)
+GridFrame::GridFrame(const std::array<int, 6>& extent, const Vec3& origin, const Vec3& spacing, const Mat3& direction)
   : Extent_(extent)
   , Origin_(origin)
   , Spacing_(spacing)
@@ -23,8 +22,8 @@ GridFrame::GridFrame(
     }
     if (!(spacing[a] > 0) || !std::isfinite(spacing[a]))
     {
-      throw std::invalid_argument(
-        "the spacing along axis " + std::to_string(a) + " is " + std::to_string(spacing[a]) + ", expected a positive length");
+      throw std::invalid_argument("the spacing along axis " + std::to_string(a) + " is " + std::to_string(spacing[a]) +
+        ", expected a positive length");
     }
   }
   const double orthonormality = (direction.transpose() * direction - Mat3::Identity()).cwiseAbs().maxCoeff();

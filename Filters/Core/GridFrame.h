@@ -26,7 +26,10 @@ public:
   const Vec3& Spacing() const { return this->Spacing_; }
   const Mat3& Direction() const { return this->Direction_; }
 
-  Vec3 ToWorld(double i, double j, double k) const { return this->LocalToWorld(this->Spacing_.cwiseProduct(Vec3(i, j, k))); }
+  Vec3 ToWorld(double i, double j, double k) const
+  {
+    return this->LocalToWorld(this->Spacing_.cwiseProduct(Vec3(i, j, k)));
+  }
   Vec3 ToIndex(const Vec3& world) const { return this->WorldToLocal(world).cwiseQuotient(this->Spacing_); }
   Vec3 LocalToWorld(const Vec3& local) const { return this->Origin_ + this->Direction_ * local; }
   Vec3 WorldToLocal(const Vec3& world) const { return this->Direction_.transpose() * (world - this->Origin_); }

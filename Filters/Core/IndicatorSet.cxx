@@ -27,8 +27,7 @@ struct Weights
     const float t2 = t * t, t3 = t2 * t;
     this->Value = Row(-0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1.0f, -1.5f * t3 + 2.0f * t2 + 0.5f * t,
       0.5f * t3 - 0.5f * t2);
-    this->First =
-      Row(-1.5f * t2 + 2.0f * t - 0.5f, 4.5f * t2 - 5.0f * t, -4.5f * t2 + 4.0f * t + 0.5f, 1.5f * t2 - t);
+    this->First = Row(-1.5f * t2 + 2.0f * t - 0.5f, 4.5f * t2 - 5.0f * t, -4.5f * t2 + 4.0f * t + 0.5f, 1.5f * t2 - t);
     this->Second = Row(-3.0f * t + 2.0f, 9.0f * t - 5.0f, -9.0f * t + 4.0f, 3.0f * t - 1.0f);
   }
 };
@@ -385,9 +384,10 @@ void IndicatorSet::FindCandidates(const std::vector<float>& largest)
         {
           if (tiles[t].empty())
           {
-            tiles[t].push_back(this->Labels_[working.At(std::min<Index>(t % this->TileDims[0] * TileSize, working.Dims[0] - 1),
-              std::min<Index>(t / this->TileDims[0] * TileSize, working.Dims[1] - 1),
-              std::min<Index>(k * TileSize, working.Dims[2] - 1))]);
+            tiles[t].push_back(
+              this->Labels_[working.At(std::min<Index>(t % this->TileDims[0] * TileSize, working.Dims[0] - 1),
+                std::min<Index>(t / this->TileDims[0] * TileSize, working.Dims[1] - 1),
+                std::min<Index>(k * TileSize, working.Dims[2] - 1))]);
           }
           layers[k].insert(layers[k].end(), tiles[t].begin(), tiles[t].end());
           this->TileStarts[k * perLayer + t + 1] = Index(tiles[t].size());
@@ -415,8 +415,8 @@ void IndicatorSet::FindTilesOf(
   // only be the largest near a sample where it is at most a diagonal, and the spline's overshoot, below the largest.
   // A block on a lattice of its own is compared with the nearest working sample: its diagonal comes on top.
   const SampleBox box = this->WorkingSamples(block.Frame);
-  const float slack = float(working.Spacing.norm() + (box.Aligned ? 0.0 : block.Frame.Spacing.norm() + working.Spacing.norm()) +
-    Overshoot * this->VoxelSize());
+  const float slack = float(working.Spacing.norm() +
+    (box.Aligned ? 0.0 : block.Frame.Spacing.norm() + working.Spacing.norm()) + Overshoot * this->VoxelSize());
   // The block's samples in the tile's cells, or one more on either side where the lattices differ.
   const auto samples = [&](int axis, Index tile, Index& first, Index& last)
   {

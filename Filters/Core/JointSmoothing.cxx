@@ -16,14 +16,14 @@ namespace LabelMesh
 namespace
 {
 // Lengths in voxels, times in voxels squared.
-constexpr double FlowTime = 0.2;       // of one step of curvature flow
-constexpr int FlowSteps = 2;           // per round
+constexpr double FlowTime = 0.2; // of one step of curvature flow
+constexpr int FlowSteps = 2;     // per round
 constexpr double RoundRedistance = 1.0;
 constexpr double FinalRedistance = 2.0;
-constexpr double ResidualWidth = 1.5;  // standard deviation of the Gaussian
+constexpr double ResidualWidth = 1.5; // standard deviation of the Gaussian
 constexpr float CorrectionGain = 0.7f;
 constexpr float LargestCorrection = 0.4f;
-constexpr float LeastArea = 0.05f;     // keeps the quotient of two small means small
+constexpr float LeastArea = 0.05f; // keeps the quotient of two small means small
 constexpr float IntegralGain = 0.5f;
 constexpr float LargestIntegral = 0.45f;
 
@@ -45,8 +45,8 @@ struct Scratch
 class JointSmoother
 {
 public:
-  JointSmoother(const Lattice& working, const std::vector<MaterialMask>& materials, const JointSmoothingOptions& options,
-    const Monitor& monitor)
+  JointSmoother(const Lattice& working, const std::vector<MaterialMask>& materials,
+    const JointSmoothingOptions& options, const Monitor& monitor)
     : Working(working)
     , Materials(materials)
     , Options(options)
@@ -82,7 +82,8 @@ public:
       [this](std::size_t m, Scratch&)
       {
         const MaterialMask& material = this->Materials[m];
-        this->Bands[m] = std::make_unique<NarrowBand>(material.Frame, material.Mask, BandReach(this->TightenOptionsOf(m)));
+        this->Bands[m] =
+          std::make_unique<NarrowBand>(material.Frame, material.Mask, BandReach(this->TightenOptionsOf(m)));
         this->Sides[m] = this->Bands[m]->Pack();
         this->Integrals[m].assign(this->Sides[m].size(), 0.0f);
         this->Blurs[m] = this->BlurOf(m);

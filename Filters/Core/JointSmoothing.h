@@ -13,15 +13,15 @@ namespace LabelMesh
 /// A material before smoothing. Its samples are samples of the working lattice.
 struct MaterialMask
 {
-  std::string Name;              ///< for progress texts
+  std::string Name; ///< for progress texts
   Lattice Frame;
-  const float* Mask = nullptr;   ///< 1 inside, 0 outside
-  double Radius = 0.7;           ///< voxels, of the final tightening
+  const float* Mask = nullptr; ///< 1 inside, 0 outside
+  double Radius = 0.7;         ///< voxels, of the final tightening
 };
 
 struct JointSmoothingOptions
 {
-  int Rounds = 8;        ///< of flow and correction
+  int Rounds = 8;         ///< of flow and correction
   double Fidelity = 0.85; ///< curvature (1 / voxel) that it takes to turn a voxel over
   int TightenIterations = 20;
   double Band = 4.0; ///< voxels: half width of the narrow bands
@@ -29,15 +29,16 @@ struct JointSmoothingOptions
 
 /// Curvature flow of every material with two corrections that keep what is there.
 ///
-/// Each round moves every material by two steps of curvature flow in which a sample that the flow has turned over is pushed
-/// back with a constant force: as in total variation with an L1 fidelity term, a voxel is given up only where keeping it
-/// needs more curvature than that force. Then, jointly, each field becomes half the difference to the largest of the others
-/// (one partition, whose zero sets coincide) plus the Gaussian mean of what the partition lacks of the labels, per area of
-/// its surface: staircases average out, lost thickness does not. The corrections are integrated, so that the flow's steady
-/// shrinkage is cancelled. At last each material is tightened (see Tighten) with a small radius.
+/// Each round moves every material by two steps of curvature flow in which a sample that the flow has turned over is
+/// pushed back with a constant force: as in total variation with an L1 fidelity term, a voxel is given up only where
+/// keeping it needs more curvature than that force. Then, jointly, each field becomes half the difference to the
+/// largest of the others (one partition, whose zero sets coincide) plus the Gaussian mean of what the partition lacks
+/// of the labels, per area of its surface: staircases average out, lost thickness does not. The corrections are
+/// integrated, so that the flow's steady shrinkage is cancelled. At last each material is tightened (see Tighten) with
+/// a small radius.
 ///
-/// Returns the results in the order of the materials. Throws std::invalid_argument when a frame's samples are not those of
-/// the working lattice and for options out of range, Aborted when the monitor asks to stop.
+/// Returns the results in the order of the materials. Throws std::invalid_argument when a frame's samples are not those
+/// of the working lattice and for options out of range, Aborted when the monitor asks to stop.
 std::vector<TightenResult> SmoothJointly(const Lattice& working, const std::vector<MaterialMask>& materials,
   const JointSmoothingOptions& options, const Monitor& monitor);
 }

@@ -48,8 +48,8 @@ bool JunctionStep(const IndicatorSet& indicators, const MaterialId* materials, i
 }
 }
 
-Projection ProjectToJunction(const IndicatorSet& indicators, const MaterialId* materials, int count, const Vec3& x,
-  const ProjectOptions& options)
+Projection ProjectToJunction(
+  const IndicatorSet& indicators, const MaterialId* materials, int count, const Vec3& x, const ProjectOptions& options)
 {
   const double voxel = indicators.VoxelSize();
   Projection projection;

@@ -24,10 +24,7 @@ struct Lattice
 
   Index Size() const { return Index(Dims[0]) * Dims[1] * Dims[2]; }
   Index At(Index i, Index j, Index k) const { return i + Dims[0] * (j + Dims[1] * k); }
-  Vec3 Position(double i, double j, double k) const
-  {
-    return Origin + Spacing.cwiseProduct(Vec3(i, j, k));
-  }
+  Vec3 Position(double i, double j, double k) const { return Origin + Spacing.cwiseProduct(Vec3(i, j, k)); }
   std::array<int, 3> Coordinates(Index at) const
   {
     const Index row = at / Dims[0];

@@ -38,8 +38,7 @@ double BandReach(const TightenOptions& options)
   return std::max(options.Band, options.Radius + 3.0);
 }
 
-TightenResult TightenBand(
-  NarrowBand& band, const Lattice& frame, const TightenOptions& options, const Monitor& monitor)
+TightenResult TightenBand(NarrowBand& band, const Lattice& frame, const TightenOptions& options, const Monitor& monitor)
 {
   if (options.Radius > 0)
   {

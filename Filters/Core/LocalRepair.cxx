@@ -13,8 +13,8 @@ namespace
 // In target lengths of the site.
 constexpr double PatchRadius = 5.0; // particles that are tetrahedralised
 constexpr double LargestPatch = 30.0;
-constexpr double CoreRadius = 2.5;  // faces with a vertex within are judged
-constexpr double MoveRadius = 2.2;  // particles within may move
+constexpr double CoreRadius = 2.5; // faces with a vertex within are judged
+constexpr double MoveRadius = 2.2; // particles within may move
 
 constexpr double SameJunction = 0.5;   // as in the sampling of curves
 constexpr double MergedJunction = 0.8; // two particles of curves this near may become one to mend a triangle
@@ -196,8 +196,7 @@ LocalRepair::Patch LocalRepair::PatchAround(const BadSite& site) const
   return patch;
 }
 
-double LocalRepair::Badness(
-  const Patch& patch, const std::vector<Pair>* wantedPairs, std::vector<Pair>* pairs) const
+double LocalRepair::Badness(const Patch& patch, const std::vector<Pair>* wantedPairs, std::vector<Pair>* pairs) const
 {
   const InterfaceComplex complex = BuildInterface(this->Indicators, patch.Particles);
   const double reach = CoreRadius * patch.Length;
@@ -260,8 +259,8 @@ LocalRepair::Patch LocalRepair::Without(const Patch& patch, Index v)
   return variant;
 }
 
-void LocalRepair::AppendWith(const Patch& base, const MaterialSet& materials, const Vec3& x, double length,
-  std::vector<Patch>& variants) const
+void LocalRepair::AppendWith(
+  const Patch& base, const MaterialSet& materials, const Vec3& x, double length, std::vector<Patch>& variants) const
 {
   Particle added;
   if (PlaceOnJunction(this->Indicators, materials, x, length, added))
@@ -309,7 +308,8 @@ void LocalRepair::AppendInsertions(
       }
       if (united.Size() == 3)
       {
-        // Where a face crosses a curve, the curve wants a particle there; its neighbour on the surface may be in the way.
+        // Where a face crosses a curve, the curve wants a particle there; its neighbour on the surface may be in the
+        // way.
         this->AppendWith(patch, united, middle, length, variants);
         this->AppendWith(Without(patch, p.CellDimension == 2 ? site[a] : site[b]), united, middle, length, variants);
       }
@@ -353,8 +353,8 @@ void LocalRepair::AppendCollapses(
         continue;
       }
       const MaterialSet united = United(p.Materials, q.Materials);
-      const bool fits = std::all_of(
-        q.Materials.begin(), q.Materials.end(), [&](MaterialId m) { return united.Contains(m); });
+      const bool fits =
+        std::all_of(q.Materials.begin(), q.Materials.end(), [&](MaterialId m) { return united.Contains(m); });
       const double most = MergedJunction * std::min(p.TargetLength, q.TargetLength);
       if (fits && (p.Position - q.Position).norm() < most)
       {

@@ -12,7 +12,7 @@ namespace LabelMesh
 /// What is bad somewhere: a triangle below the wanted ratio, a wrong face, a non-manifold edge or vertex.
 struct BadSite
 {
-  std::vector<Index> Vertices; ///< one to three particles
+  std::vector<Index> Vertices;                                   ///< one to three particles
   std::array<MaterialId, 2> Materials{ NoMaterial, NoMaterial }; ///< of the face, if it is one
 };
 
@@ -20,10 +20,12 @@ struct BadSite
 std::vector<BadSite> FindBadSites(
   const std::vector<Particle>& particles, const std::vector<InterfaceTriangle>& faces, double wantedRatio);
 
-/// Repairs sites one after another, each as a transaction: the particles within a few target lengths are tetrahedralised
-/// by themselves (the empty balls of interface faces are small, so that the faces around the site are those of the whole),
-/// changes are tried (relaxing, deleting a vertex, joining two, sliding one along its curve, merging two of curves, adding one on a surface or a
-/// curve, uniting a junction with one closer than half a target length), and the best one is kept if the faces around the site have become better. A site that has been touched waits for the next pass.
+/// Repairs sites one after another, each as a transaction: the particles within a few target lengths are
+/// tetrahedralised by themselves (the empty balls of interface faces are small, so that the faces around the site are
+/// those of the whole), changes are tried (relaxing, deleting a vertex, joining two, sliding one along its curve,
+/// merging two of curves, adding one on a surface or a curve, uniting a junction with one closer than half a target
+/// length), and the best one is kept if the faces around the site have become better. A site that has been touched
+/// waits for the next pass.
 class LocalRepair
 {
 public:
@@ -50,8 +52,8 @@ private:
   std::vector<Patch> Variants(const Patch& patch, const std::vector<Index>& site, const BadSite& fault) const;
   static Patch Without(const Patch& patch, Index v);
   /// Appends the base with one more particle on the junction of `materials` near x, if there is such a point.
-  void AppendWith(const Patch& base, const MaterialSet& materials, const Vec3& x, double length,
-    std::vector<Patch>& variants) const;
+  void AppendWith(
+    const Patch& base, const MaterialSet& materials, const Vec3& x, double length, std::vector<Patch>& variants) const;
   void AppendDeletions(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
   void AppendInsertions(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
   void AppendCollapses(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;

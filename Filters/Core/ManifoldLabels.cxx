@@ -62,7 +62,8 @@ int ExtraFans(std::vector<FanPiece>& pieces)
   return extra;
 }
 
-/// Calls visit(other end) for each edge from a vertex that some material's pieces use other than twice, once per material.
+/// Calls visit(other end) for each edge from a vertex that some material's pieces use other than twice, once per
+/// material.
 template <typename Visit>
 void ForTiedEdges(const std::vector<FanPiece>& pieces, Visit&& visit)
 {
@@ -447,8 +448,8 @@ std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& fac
     });
 }
 
-void MakeManifold(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
-  TetraLabels& labels)
+void MakeManifold(
+  const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside, TetraLabels& labels)
 {
   const std::vector<InterfaceTriangle> faces = InterfaceFaces(particles, tetrahedra, labels, outside);
   std::vector<Index> faulty = VertexFaces(faces).Collect<Index>(faces,

@@ -41,7 +41,8 @@ InterfaceMesh Compact(const std::vector<Particle>& particles, std::vector<Interf
 }
 
 /// Counts what is wrong with a mesh.
-void Judge(const std::vector<Particle>& particles, const InterfaceComplex& complex, double wantedRatio, MeshResult& result)
+void Judge(
+  const std::vector<Particle>& particles, const InterfaceComplex& complex, double wantedRatio, MeshResult& result)
 {
   result.Tetrahedra = complex.Tetrahedra.Size();
   result.EmptySets = complex.Labels.EmptySets;
@@ -74,7 +75,8 @@ MeshResult MeshInterfaces(const IndicatorSet& indicators, const std::vector<Part
     {
       break;
     }
-    const Monitor round = monitor.Part(double(result.Rounds + 1) / (options.RepairRounds + 1), double(result.Rounds + 2) / (options.RepairRounds + 1));
+    const Monitor round = monitor.Part(
+      double(result.Rounds + 1) / (options.RepairRounds + 1), double(result.Rounds + 2) / (options.RepairRounds + 1));
     LocalRepair repair(indicators, current, options.RepairBelow);
     Index mended = 0;
     for (std::size_t n = 0; n < sites.size(); ++n)

@@ -108,8 +108,8 @@ void UpwindStep(const float* __restrict phi, float* __restrict to, const float* 
   }
 }
 
-/// The share of a cell where the trilinear interpolant of its corners' distances (in voxels; x fastest) is positive: 4^3
-/// parts, each by its distance to a plane.
+/// The share of a cell where the trilinear interpolant of its corners' distances (in voxels; x fastest) is positive:
+/// 4^3 parts, each by its distance to a plane.
 double VolumeInside(const std::array<float, 8>& phi, float spacing)
 {
   constexpr int parts = 4;
@@ -361,8 +361,8 @@ void NarrowBand::Redistance(double reach)
 
 void NarrowBand::Assign(const std::vector<float>& packed)
 {
-  this->Advance([&](const Run& run)
-    { std::copy_n(packed.data() + run.Packed, run.Count, this->Next.data() + run.First); });
+  this->Advance(
+    [&](const Run& run) { std::copy_n(packed.data() + run.Packed, run.Count, this->Next.data() + run.First); });
 }
 
 std::vector<float> NarrowBand::Pack() const
@@ -392,8 +392,8 @@ double NarrowBand::Volume() const
   const Index y = this->Frame.Dims[0], z = y * this->Frame.Dims[1];
   const Index corners[8] = { 0, 1, y, y + 1, z, z + 1, z + y, z + y + 1 };
   const float spacing = float(this->Frame.Spacing.mean());
-  // Each sample inside gives an eighth to each of the cells that it is a corner of; cells that the zero set crosses give
-  // what lies inside of them instead.
+  // Each sample inside gives an eighth to each of the cells that it is a corner of; cells that the zero set crosses
+  // give what lies inside of them instead.
   const auto part = [&](const float* p)
   {
     int inside = 0;

@@ -34,7 +34,8 @@ public:
   /// The same flow, between two bounds that Pack() gave.
   void SmoothBetween(double time, const std::vector<float>& lower, const std::vector<float>& upper);
   /// The same flow, in which a sample that has left its side of `sides` (packed; the sign counts) is pushed back with a
-  /// constant force, up to 0.05: a sample is given up only where keeping it takes more curvature (1 / voxel) than `force`.
+  /// constant force, up to 0.05: a sample is given up only where keeping it takes more curvature (1 / voxel) than
+  /// `force`.
   void SmoothTowards(double time, const std::vector<float>& sides, double force);
   /// Makes phi a distance again up to `reach` voxels from its zero set, which stays where it is: samples beside it get
   /// their distance to the plane through it (the subcell fix of Russo and Smereka), the others follow
@@ -59,10 +60,7 @@ public:
   std::vector<float> Pack() const;
   void Assign(const std::vector<float>& packed);
   /// phi along x at (0, j, k) of the lattice given at first.
-  const float* Row(Index j, Index k) const
-  {
-    return this->Phi.data() + this->Frame.At(Margin, j + Margin, k + Margin);
-  }
+  const float* Row(Index j, Index k) const { return this->Phi.data() + this->Frame.At(Margin, j + Margin, k + Margin); }
   /// Calls body(packed, i, j, k, count) in parallel for runs of active samples along x, which start at (i, j, k) of the
   /// lattice given at first and at number `packed` of the packed samples.
   template <typename Body>

@@ -10,9 +10,9 @@
 
 namespace LabelMesh
 {
-/// Points, each with a length h. A point lies in the level floor(log2 h), whose cells are twice 2^(level + 1) wide, so that
-/// a look-up of a few h visits a few cells on each level whatever the range of h.
-/// Points are visited in an order that depends on their insertion alone.
+/// Points, each with a length h. A point lies in the level floor(log2 h), whose cells are twice 2^(level + 1) wide, so
+/// that a look-up of a few h visits a few cells on each level whatever the range of h. Points are visited in an order
+/// that depends on their insertion alone.
 class NeighborGrid
 {
 public:
@@ -74,15 +74,16 @@ public:
   void VisitWithin(const Vec3& x, double radius, double smallest, Visit&& visit) const
   {
     this->VisitLevels(
-      x, std::max(this->LowestLevel, LevelOf(smallest)), [=](double) { return radius; },
-      [=](double) { return radius; }, visit);
+      x, std::max(this->LowestLevel, LevelOf(smallest)), [=](double) { return radius; }, [=](double) { return radius; },
+      visit);
   }
   /// Calls visit(number, squared distance) for every point with |x - p| < factor * h_p.
   template <typename Visit>
   void VisitReaching(const Vec3& x, double factor, Visit&& visit) const
   {
     this->VisitLevels(
-      x, this->LowestLevel, [=](double upper) { return factor * upper; }, [=](double hp) { return factor * hp; }, visit);
+      x, this->LowestLevel, [=](double upper) { return factor * upper; }, [=](double hp) { return factor * hp; },
+      visit);
   }
 
 private:
@@ -91,14 +92,15 @@ private:
   static std::uint64_t KeyOf(int level, Index i, Index j, Index k)
   {
     constexpr std::uint64_t mask = (1u << 19) - 1;
-    return 1 + ((std::uint64_t(i) & mask) | ((std::uint64_t(j) & mask) << 19) | ((std::uint64_t(k) & mask) << 38) |
-                 ((std::uint64_t(level + 32) & 63) << 57));
+    return 1 +
+      ((std::uint64_t(i) & mask) | ((std::uint64_t(j) & mask) << 19) | ((std::uint64_t(k) & mask) << 38) |
+        ((std::uint64_t(level + 32) & 63) << 57));
   }
   static std::uint64_t KeyOf(int level, const Vec3& x)
   {
     const double inverse = 1.0 / CellSize(level);
-    return KeyOf(level, Index(std::floor(x[0] * inverse)), Index(std::floor(x[1] * inverse)),
-      Index(std::floor(x[2] * inverse)));
+    return KeyOf(
+      level, Index(std::floor(x[0] * inverse)), Index(std::floor(x[1] * inverse)), Index(std::floor(x[2] * inverse)));
   }
 
   std::size_t FindSlot(std::uint64_t key) const
@@ -132,8 +134,7 @@ private:
   }
 
   template <typename LevelRadius, typename PointRadius, typename Visit>
-  void VisitLevels(
-    const Vec3& x, int lowest, LevelRadius&& levelRadius, PointRadius&& pointRadius, Visit&& visit) const
+  void VisitLevels(const Vec3& x, int lowest, LevelRadius&& levelRadius, PointRadius&& pointRadius, Visit&& visit) const
   {
     if (this->Next.empty())
     {
@@ -170,9 +171,9 @@ private:
     }
   }
 
-  std::vector<std::uint64_t> Keys;  // of occupied slots
-  std::vector<std::int32_t> Heads;  // first point of a cell, -1: free slot
-  std::vector<std::int32_t> Next;   // next point of the same cell
+  std::vector<std::uint64_t> Keys; // of occupied slots
+  std::vector<std::int32_t> Heads; // first point of a cell, -1: free slot
+  std::vector<std::int32_t> Next;  // next point of the same cell
   std::vector<Vec3> Positions;
   std::vector<double> Lengths;
   std::size_t Used = 0;

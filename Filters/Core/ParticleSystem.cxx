@@ -51,8 +51,8 @@ void SortInSpace(const Lattice& frame, std::vector<Particle>& particles, Index f
 }
 }
 
-SampleResult SampleCells(const IndicatorSet& indicators, const Grid<float>& targetLength, const SampleOptions& options,
-  const Monitor& monitor)
+SampleResult SampleCells(
+  const IndicatorSet& indicators, const Grid<float>& targetLength, const SampleOptions& options, const Monitor& monitor)
 {
   SampleResult result;
   const JunctionNetwork network = TraceJunctions(indicators, monitor.Part(0.0, 0.1));

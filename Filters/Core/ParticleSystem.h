@@ -11,8 +11,8 @@ namespace LabelMesh
 {
 struct SampleOptions
 {
-  int Sweeps = 40;          ///< relaxation sweeps over the 2-cell particles
-  std::uint32_t Seed = 1;   ///< of the random order of the first particles
+  int Sweeps = 40;        ///< relaxation sweeps over the 2-cell particles
+  std::uint32_t Seed = 1; ///< of the random order of the first particles
 };
 
 struct SampleResult

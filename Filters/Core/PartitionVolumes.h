@@ -7,10 +7,10 @@
 
 namespace LabelMesh
 {
-/// The volume (world length cubed) where each material's indicator is the largest, by material; the background's within the
-/// working lattice. That is what a mesh of the interfaces encloses: the indicator of one material alone says less, since its
-/// neighbours fill what it leaves. Cells of the lattice whose corners differ are cut into 4^3 parts, by the trilinear
-/// interpolants of the corners' materials.
+/// The volume (world length cubed) where each material's indicator is the largest, by material; the background's within
+/// the working lattice. That is what a mesh of the interfaces encloses: the indicator of one material alone says less,
+/// since its neighbours fill what it leaves. Cells of the lattice whose corners differ are cut into 4^3 parts, by the
+/// trilinear interpolants of the corners' materials.
 std::vector<double> PartitionVolumes(const IndicatorSet& indicators);
 }
 

@@ -17,7 +17,7 @@ constexpr int SweepsPerList = 5;        // neighbour lists are kept that long
 constexpr double SweepTolerance = 0.02; // voxels: how far off their interface particles may be between sweeps
 constexpr double FinalTolerance = 0.001;
 constexpr double LargestResidual = 0.02;
-constexpr double LeastTurn = 0.2; // cosine between the normals before and after a move
+constexpr double LeastTurn = 0.2;       // cosine between the normals before and after a move
 constexpr double ListRange = 1.12;      // and so much longer than the interaction
 constexpr double Regularization = 0.05; // of the trace of the Hessian
 
@@ -192,8 +192,7 @@ double Relax(const IndicatorSet& indicators, const Grid<float>* targetLength, st
         {
           Particle& p = particles[moving[n]]; // neighbours read their own copy of what they need
           const Index* const ids = lists->Ids.data();
-          Vec3 step = options.Damping *
-              EnergyStep(p, neighbors, ids + lists->Starts[n], ids + lists->Starts[n + 1]) +
+          Vec3 step = options.Damping * EnergyStep(p, neighbors, ids + lists->Starts[n], ids + lists->Starts[n + 1]) +
             options.Momentum * ToTangentPlane(steps[n], p.Normal);
           const double length = step.norm(), most = options.LargestStep * p.TargetLength;
           if (length > most)

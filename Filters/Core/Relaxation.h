@@ -23,16 +23,16 @@ inline bool Interact(const Particle& particle, const Particle& other)
 struct RelaxOptions
 {
   int Sweeps = 10;
-  double Damping = 0.9;    ///< of the Gauss-Newton step
-  double Momentum = 0.7;   ///< of the previous step
+  double Damping = 0.9;     ///< of the Gauss-Newton step
+  double Momentum = 0.7;    ///< of the previous step
   double LargestStep = 0.3; ///< target lengths
 };
 
 /// Moves the 2-cell particles `moving` (ascending indices) of `particles`; the others stay.
 ///
-/// The energy of a pair is ((1 - d) / d)^2 with d = |p_i - p_j| / (sqrt(3) min(h_i, h_j)), zero beyond 1. Each sweep moves
-/// all particles at once (Jacobi) by a Gauss-Newton step in their tangent planes with momentum and projects them back
-/// onto their interface; a particle that would leave its interface, where a third material is larger, stays.
+/// The energy of a pair is ((1 - d) / d)^2 with d = |p_i - p_j| / (sqrt(3) min(h_i, h_j)), zero beyond 1. Each sweep
+/// moves all particles at once (Jacobi) by a Gauss-Newton step in their tangent planes with momentum and projects them
+/// back onto their interface; a particle that would leave its interface, where a third material is larger, stays.
 /// `targetLength` null: each keeps its target length.
 /// Returns the mean move of the last sweep in target lengths.
 double Relax(const IndicatorSet& indicators, const Grid<float>* targetLength, std::vector<Particle>& particles,
@@ -40,7 +40,8 @@ double Relax(const IndicatorSet& indicators, const Grid<float>* targetLength, st
 
 /// Puts x on the interface of the pair and sets position, normal and residual of the particle; false where it does not
 /// converge within `reach` (world length) of x or another material is larger there.
-bool PutOnInterface(const IndicatorSet& indicators, MaterialId a, MaterialId b, const Vec3& x, double reach, Particle& particle);
+bool PutOnInterface(
+  const IndicatorSet& indicators, MaterialId a, MaterialId b, const Vec3& x, double reach, Particle& particle);
 }
 
 #endif

@@ -18,8 +18,8 @@ constexpr double ShellVoxels =
   2.0; // samples this near to an interface sample hold its h0: every corner of a crossed cell
 
 constexpr double HexagonArea = 0.866; // h^2: the area that each particle of a hexagonal packing has
-// The share of that ideal number which the sampling reaches, by h in voxels, as measured on balls of radius 30: its first
-// particles are chosen among one candidate per label-changing grid edge, few for each where h is near a voxel.
+// The share of that ideal number which the sampling reaches, by h in voxels, as measured on balls of radius 30: its
+// first particles are chosen among one candidate per label-changing grid edge, few for each where h is near a voxel.
 constexpr std::array<std::array<double, 2>, 8> PackingShares{ { { 0.5, 0.78 }, { 0.75, 0.85 }, { 1.0, 0.935 },
   { 1.5, 0.96 }, { 2.0, 1.04 }, { 3.0, 1.15 }, { 4.0, 1.18 }, { 6.0, 1.23 } } };
 

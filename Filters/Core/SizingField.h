@@ -47,8 +47,8 @@ SizingResult ComputeSizing(
 
 /// About how many particles (vertices) a mesh with this sizing field has: the sum over label-changing grid edges of
 /// s A / (0.866 h^2), A the area of interface that such an edge stands for, s the share of a hexagonal packing that the
-/// sampling reaches, 0.78 to 1.23 by h in voxels (about 0.93 where h is a voxel). The number of triangles is about twice
-/// that.
+/// sampling reaches, 0.78 to 1.23 by h in voxels (about 0.93 where h is a voxel). The number of triangles is about
+/// twice that.
 double PredictParticles(const IndicatorSet& indicators, const Grid<float>& targetLength);
 }
 

@@ -4,7 +4,6 @@
 #include "Parallel.h"
 #include "Relaxation.h"
 
-
 namespace LabelMesh
 {
 namespace
@@ -70,7 +69,8 @@ private:
     }
   }
 
-  void FindAtEdge(MaterialId a, MaterialId b, const Vec3& middle, std::uint64_t edge, std::vector<Particle>& found) const
+  void FindAtEdge(
+    MaterialId a, MaterialId b, const Vec3& middle, std::uint64_t edge, std::vector<Particle>& found) const
   {
     const Lattice& frame = this->Indicators.Working();
     Particle particle;
@@ -85,8 +85,8 @@ private:
         const double unit = RandomUnit(this->Seed + 1, (edge * 16 + std::uint64_t(n)) * 3 + std::uint64_t(axis));
         start[axis] += (unit - 0.5) * frame.Spacing[axis];
       }
-      if (PutOnInterface(this->Indicators, particle.Materials[0], particle.Materials[1], start,
-            frame.Spacing.maxCoeff(), particle))
+      if (PutOnInterface(
+            this->Indicators, particle.Materials[0], particle.Materials[1], start, frame.Spacing.maxCoeff(), particle))
       {
         particle.TargetLength = this->TargetLength.Trilinear(particle.Position);
         found.push_back(particle);

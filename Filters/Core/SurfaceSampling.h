@@ -10,15 +10,16 @@
 namespace LabelMesh
 {
 // Distances in target lengths.
-inline constexpr double PoissonDistance = 0.67; ///< between first particles
-inline constexpr double CrowdedDistance = 0.62; ///< one of a closer pair is deleted
-inline constexpr double HardCore = 0.5;         ///< whatever the interfaces: else opposite thin sheets coincide
-inline constexpr double GapDistance = 0.8;      ///< a candidate farther from all particles fills a gap
+inline constexpr double PoissonDistance = 0.67;  ///< between first particles
+inline constexpr double CrowdedDistance = 0.62;  ///< one of a closer pair is deleted
+inline constexpr double HardCore = 0.5;          ///< whatever the interfaces: else opposite thin sheets coincide
+inline constexpr double GapDistance = 0.8;       ///< a candidate farther from all particles fills a gap
 inline constexpr double ProtectionFactor = 1.05; ///< of the diametral ball of each 1-cell segment
 
 /// One particle on the interface per label-changing edge of the working lattice, more where the target length is
 /// shorter than a voxel, in an order that is random and depends on `seed` alone.
-std::vector<Particle> InterfaceCandidates(const IndicatorSet& indicators, const Grid<float>& targetLength, std::uint32_t seed);
+std::vector<Particle> InterfaceCandidates(
+  const IndicatorSet& indicators, const Grid<float>& targetLength, std::uint32_t seed);
 
 /// The diametral balls of the segments of 1-cells, which must hold no 2-cell particle for the segment to be an edge of
 /// the Delaunay tetrahedralisation.
@@ -34,8 +35,8 @@ private:
 
 /// Adds each candidate, in order, that is at least `distance` from all particles that it interacts with, the hard core
 /// from all, and in no protection ball.
-void AddWhereFree(
-  std::vector<Particle>& particles, const std::vector<Particle>& candidates, const ProtectionBalls& protection, double distance);
+void AddWhereFree(std::vector<Particle>& particles, const std::vector<Particle>& candidates,
+  const ProtectionBalls& protection, double distance);
 
 /// Deletes 2-cell particles that are crowded or in a protection ball. Those of other cells stay.
 void DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& protection);

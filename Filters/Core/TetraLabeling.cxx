@@ -149,7 +149,8 @@ std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& parti
             face.Vertices[v] = corners[faces[j][v]];
           }
           const Vec3& a = particles[face.Vertices[0]].Position;
-          const Vec3 normal = (particles[face.Vertices[1]].Position - a).cross(particles[face.Vertices[2]].Position - a);
+          const Vec3 normal =
+            (particles[face.Vertices[1]].Position - a).cross(particles[face.Vertices[2]].Position - a);
           if (normal.dot(particles[corners[j]].Position - a) > 0)
           {
             std::swap(face.Vertices[1], face.Vertices[2]);

@@ -18,8 +18,8 @@ struct TetraLabels
   Index EmptySets = 0; ///< tetrahedra whose corners share no material: undersampling at a 1-cell
 };
 
-/// The label of a tetrahedron is the material with the largest indicator at its circumcentre among those that are in the
-/// sets of all four corners, so that no face crosses an interface. The paper asks the circumcentre alone.
+/// The label of a tetrahedron is the material with the largest indicator at its circumcentre among those that are in
+/// the sets of all four corners, so that no face crosses an interface. The paper asks the circumcentre alone.
 TetraLabels LabelTetrahedra(
   const IndicatorSet& indicators, const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra);
 

@@ -13,7 +13,8 @@ namespace LabelMesh::Testing
 {
 using Field = std::function<double(const Vec3&)>;
 
-inline Lattice MakeLattice(int nx, int ny, int nz, const Vec3& spacing = Vec3::Ones(), const Vec3& origin = Vec3::Zero())
+inline Lattice MakeLattice(
+  int nx, int ny, int nz, const Vec3& spacing = Vec3::Ones(), const Vec3& origin = Vec3::Zero())
 {
   Lattice lattice;
   lattice.Dims = { nx, ny, nz };

@@ -26,8 +26,7 @@ TEST(CurveTracing, FindsTheCircleWhereTwoSpheresAndTheOutsideMeet)
 {
   const Vec3 a(32, 32, 40), b(32, 32, 24);
   // All three smooth; they are equal (to 0) on the circle where the spheres cut each other.
-  const SampledFields fields(
-    MakeLattice(64, 64, 64), { [](const Vec3&) { return 0.0; }, Ball(a, 17), Ball(b, 15) });
+  const SampledFields fields(MakeLattice(64, 64, 64), { [](const Vec3&) { return 0.0; }, Ball(a, 17), Ball(b, 15) });
   const JunctionNetwork network = TraceJunctions(*fields, Monitor());
   ASSERT_EQ(network.OneCells.size(), 1u);
   EXPECT_TRUE(network.OneCells[0].Closed);

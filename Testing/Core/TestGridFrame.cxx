@@ -26,7 +26,8 @@ TEST(GridFrame, MapsIndicesOfARotatedAndOfAMirroredImageForthAndBack)
   {
     const GridFrame frame(Extent, Origin, Spacing, direction);
     EXPECT_LT((frame.ToWorld(0, 0, 0) - Origin).norm(), 1e-12);
-    const Vec3 expected = Origin + 4 * 0.5 * direction.col(0) + 6 * 1.25 * direction.col(1) - 2 * 3.0 * direction.col(2);
+    const Vec3 expected =
+      Origin + 4 * 0.5 * direction.col(0) + 6 * 1.25 * direction.col(1) - 2 * 3.0 * direction.col(2);
     EXPECT_LT((frame.ToWorld(4, 6, -2) - expected).norm(), 1e-12);
     EXPECT_LT((frame.ToIndex(expected) - Vec3(4, 6, -2)).norm(), 1e-12);
   }

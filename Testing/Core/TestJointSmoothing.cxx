@@ -103,8 +103,7 @@ TEST(JointSmoothing, ABallKeepsItsVolumeAndLosesItsStaircase)
 {
   const Vec3 centre(24.2, 23.9, 24.1);
   const double radius = 15;
-  const Volume volume(
-    MakeLattice(48, 48, 48), 2, [&](const Vec3& x) { return int((x - centre).norm() < radius); });
+  const Volume volume(MakeLattice(48, 48, 48), 2, [&](const Vec3& x) { return int((x - centre).norm() < radius); });
   const auto results = volume.Smooth();
   EXPECT_NEAR(results[1].TightVolume / results[1].MaskVolume, 1.0, 0.01);
   // The zero level is the sphere, to a tenth of a voxel on average.
@@ -145,7 +144,9 @@ TEST(JointSmoothing, APlateAndARodOfTwoVoxelsStay)
 TEST(JointSmoothing, NeighboursShareTheirSurface)
 {
   const Volume volume(MakeLattice(40, 40, 40), 3,
-    [](const Vec3& x) { return (x - Vec3(20, 20, 20)).norm() > 14 ? 0 : x[0] < 19.5 + 0.2 * x[1] - 4 ? 1 : 2; });
+    [](const Vec3& x) { return (x - Vec3(20, 20, 20)).norm() > 14 ? 0
+                          : x[0] < 19.5 + 0.2 * x[1] - 4          ? 1
+                                                                  : 2; });
   const auto results = volume.Smooth();
   // Between 1 and 2, away from the rest, one is the other's negative.
   for (Index at = 0; at < volume.Frame.Size(); ++at)
@@ -161,7 +162,8 @@ TEST(JointSmoothing, NeighboursShareTheirSurface)
 
 TEST(JointSmoothing, SameBitsForAnyNumberOfThreads)
 {
-  const Volume volume(MakeLattice(110, 100, 100), 2, [](const Vec3& x) { return int(std::sin(x[0] / 5) * 20 + 50 > x[2]); });
+  const Volume volume(
+    MakeLattice(110, 100, 100), 2, [](const Vec3& x) { return int(std::sin(x[0] / 5) * 20 + 50 > x[2]); });
   std::vector<TightenResult> one, two;
   vtkSMPTools::LocalScope(vtkSMPTools::Config(1, "STDThread", false), [&] { one = volume.Smooth(); });
   vtkSMPTools::LocalScope(vtkSMPTools::Config(2, "STDThread", false), [&] { two = volume.Smooth(); });
@@ -171,8 +173,8 @@ TEST(JointSmoothing, SameBitsForAnyNumberOfThreads)
 TEST(JointSmoothing, RefusesAMaterialOnAGridOfItsOwnAndStopsOnRequest)
 {
   Volume volume(MakeLattice(20, 20, 20), 2, [](const Vec3& x) { return int(x[0] > 10); });
-  EXPECT_THROW(
-    SmoothJointly(volume.Frame, volume.Materials, JointSmoothingOptions(), Monitor([](double, const std::string&) { return true; })),
+  EXPECT_THROW(SmoothJointly(volume.Frame, volume.Materials, JointSmoothingOptions(),
+                 Monitor([](double, const std::string&) { return true; })),
     Aborted);
   volume.Materials[1].Frame.Spacing *= 0.5;
   EXPECT_THROW(volume.Smooth(), std::invalid_argument);

@@ -19,7 +19,8 @@ namespace
 const Lattice Frame = MakeLattice(48, 48, 48);
 const Vec3 Centre(24.2, 23.9, 24.1);
 
-/// Four Voronoi cells in a ball: six interfaces between them, four with the outside, one 0-cell inside and four outside.
+/// Four Voronoi cells in a ball: six interfaces between them, four with the outside, one 0-cell inside and four
+/// outside.
 SampledFields FourCellsInABall()
 {
   std::vector<Field> fields{ [](const Vec3& x) { return (x - Centre).norm() - 36.0; } };
@@ -56,7 +57,8 @@ TEST(Delaunay, OfARegularGridIsDelaunay)
   std::vector<Vec3> points;
   for (int n = 0; n < 125; ++n)
   {
-    points.emplace_back(n % 5 + 0.01 * std::sin(12.9 * n), n / 5 % 5 + 0.01 * std::sin(78.2 * n), n / 25 + 0.01 * std::sin(3.7 * n));
+    points.emplace_back(
+      n % 5 + 0.01 * std::sin(12.9 * n), n / 5 % 5 + 0.01 * std::sin(78.2 * n), n / 25 + 0.01 * std::sin(3.7 * n));
   }
   const Tetrahedralization t = DelaunayTetrahedra(points);
   ASSERT_GT(t.Size(), 300);
@@ -89,7 +91,8 @@ TEST(Delaunay, OfTooFewOrFlatPointsIsEmpty)
 {
   EXPECT_EQ(DelaunayTetrahedra({}).Size(), 0);
   EXPECT_EQ(DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0) }).Size(), 0);
-  EXPECT_EQ(DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(3, 1, 0) }).Size(), 0);
+  EXPECT_EQ(
+    DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(3, 1, 0) }).Size(), 0);
   EXPECT_EQ(DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 1) }).Size(), 1);
 }
 

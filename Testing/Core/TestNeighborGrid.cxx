@@ -61,7 +61,8 @@ TEST(NeighborGrid, FindsWhatATestOfAllPairsFinds)
     points.Grid.VisitWithin(x, 3.0, 0.0, [&](Index n, double) { within.push_back(n); });
     points.Grid.VisitReaching(x, 1.2, [&](Index n, double) { reaching.push_back(n); });
     const auto distance = [&](std::size_t n) { return (points.X[n] - x).norm(); };
-    EXPECT_EQ(Sorted(scaled), points.BruteForce([&](std::size_t n) { return distance(n) < 1.9 * std::min(h, points.H[n]); }));
+    EXPECT_EQ(
+      Sorted(scaled), points.BruteForce([&](std::size_t n) { return distance(n) < 1.9 * std::min(h, points.H[n]); }));
     EXPECT_EQ(Sorted(within), points.BruteForce([&](std::size_t n) { return distance(n) < 3.0; }));
     EXPECT_EQ(Sorted(reaching), points.BruteForce([&](std::size_t n) { return distance(n) < 1.2 * points.H[n]; }));
   }

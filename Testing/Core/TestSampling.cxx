@@ -94,7 +94,8 @@ TEST(CurveSampling, JunctionsCloserThanHalfALengthBecomeOneParticle)
 TEST(Relaxation, AHexagonalArrangementOfTheTargetLengthStays)
 {
   // At the target length d = 1 / sqrt(3); the ring beyond is just out of range, so the forces cancel.
-  const SampledFields fields(Frame, { [](const Vec3& x) { return 32.3 - x[2]; }, [](const Vec3& x) { return x[2] - 32.3; } });
+  const SampledFields fields(
+    Frame, { [](const Vec3& x) { return 32.3 - x[2]; }, [](const Vec3& x) { return x[2] - 32.3; } });
   std::vector<Particle> particles;
   std::vector<Index> moving;
   const double h = 3.0;
@@ -106,8 +107,8 @@ TEST(Relaxation, AHexagonalArrangementOfTheTargetLengthStays)
       p.Materials.Insert(0);
       p.Materials.Insert(1);
       p.TargetLength = h;
-      ASSERT_TRUE(PutOnInterface(
-        *fields, 0, 1, Vec3(10 + h * (i + 0.5 * (j % 2)), 10 + h * j * std::sqrt(0.75), 32), 1.0, p));
+      ASSERT_TRUE(
+        PutOnInterface(*fields, 0, 1, Vec3(10 + h * (i + 0.5 * (j % 2)), 10 + h * j * std::sqrt(0.75), 32), 1.0, p));
       EXPECT_NEAR(p.Position[2], 32.3, 1e-5);
       EXPECT_GT(p.Normal[2], 0.999);
       if (i > 0 && i < 11 && j > 0 && j < 11)
