@@ -6,6 +6,8 @@
 #include "Relaxation.h"
 #include "TetraLabeling.h"
 
+#include <Eigen/Geometry>
+
 namespace LabelMesh
 {
 namespace
@@ -25,11 +27,13 @@ constexpr std::size_t SmallestPatch = 150;
 
 constexpr int RepairSweeps = 12;
 
-// What a fault costs. A triangle below the wanted ratio costs 1 to 11.
-constexpr double WrongFaceCost = 100.0;
-constexpr double NonManifoldCost = 60.0;
-constexpr double LostPairCost = 40.0;
-constexpr double PinchedCost = 20.0;
+// What a fault costs. A triangle below the wanted ratio costs 1 and up to 111: rather several that lack a little than
+// one that lacks much.
+constexpr double WorstCost = 100.0;
+constexpr double WrongFaceCost = 200.0;
+constexpr double NonManifoldCost = 120.0;
+constexpr double LostPairCost = 80.0;
+constexpr double PinchedCost = 60.0;
 
 using Pair = std::array<MaterialId, 2>;
 
@@ -146,15 +150,31 @@ bool LocalRepair::Mend(const BadSite& site)
   }
   double best = before;
   Patch mended;
-  for (Patch& variant : this->Variants(patch, local, site))
+  const auto judge = [&](Patch& variant)
   {
-    this->RelaxCore(variant);
     const double badness = this->Badness(variant, &pairs, nullptr);
     if (badness < best)
     {
       best = badness;
       mended = std::move(variant);
-      if (best == 0.0)
+    }
+    return best == 0.0;
+  };
+  for (Patch& variant : this->Variants(patch, local, site))
+  {
+    this->RelaxCore(variant);
+    if (judge(variant))
+    {
+      break;
+    }
+  }
+  if (best > 0.0)
+  {
+    // Relaxing evens out distances, which is not always what the worst triangle wants: single moves are taken as they
+    // are.
+    for (Patch& variant : this->Moves(patch, local))
+    {
+      if (judge(variant))
       {
         break;
       }
@@ -211,7 +231,8 @@ double LocalRepair::Badness(const Patch& patch, const std::vector<Pair>* wantedP
       continue;
     }
     const double ratio = RatioOf(patch.Particles, face);
-    badness += ratio < this->WantedRatio ? 1.0 + 10.0 * (this->WantedRatio - ratio) / this->WantedRatio : 0.0;
+    const double lack = std::max(0.0, 1.0 - ratio / this->WantedRatio);
+    badness += lack > 0.0 ? 1.0 + 10.0 * lack + WorstCost * lack * lack : 0.0;
     badness += IsWrong(patch.Particles, face) ? WrongFaceCost : 0.0;
     present.push_back(PairOf(face));
   }
@@ -338,6 +359,29 @@ void LocalRepair::AppendSlides(const Patch& patch, const std::vector<Index>& sit
       }
     }
   }
+}
+
+std::vector<LocalRepair::Patch> LocalRepair::Moves(const Patch& patch, const std::vector<Index>& site) const
+{
+  constexpr int directions = 8;
+  std::vector<Patch> variants;
+  for (const Index v : site)
+  {
+    const Particle& p = patch.Particles[v];
+    for (int n = 0; p.CellDimension == 2 && n < 2 * directions; ++n)
+    {
+      const double angle = 2.0 * M_PI * (n % directions) / directions, length = n < directions ? 0.15 : 0.3;
+      const Vec3 u = p.Normal.unitOrthogonal(), w = p.Normal.cross(u);
+      const Vec3 target = p.Position + length * p.TargetLength * (std::cos(angle) * u + std::sin(angle) * w);
+      Particle moved;
+      if (PlaceOnJunction(this->Indicators, p.Materials, target, p.TargetLength, moved))
+      {
+        variants.push_back(patch);
+        variants.back().Particles[v] = moved;
+      }
+    }
+  }
+  return variants;
 }
 
 void LocalRepair::AppendCollapses(

@@ -50,6 +50,8 @@ private:
     std::vector<std::array<MaterialId, 2>>* pairs) const;
   /// Changes that may mend the site, whose vertices are `site` of the patch.
   std::vector<Patch> Variants(const Patch& patch, const std::vector<Index>& site, const BadSite& fault) const;
+  /// The patch with one 2-cell vertex of the site moved a little, in several directions.
+  std::vector<Patch> Moves(const Patch& patch, const std::vector<Index>& site) const;
   static Patch Without(const Patch& patch, Index v);
   /// Appends the base with one more particle on the junction of `materials` near x, if there is such a point.
   void AppendWith(
