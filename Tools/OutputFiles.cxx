@@ -34,6 +34,8 @@ fs::path FolderOf(const std::string& file)
   return folder.empty() ? fs::path(".") : folder;
 }
 
+/// Writers are set to binary data within the elements: VTK 9.1 and 9.2 cannot read appended data back with the Expat that
+/// Debian 12 has since its security updates.
 template <typename Writer>
 void RunWriter(Writer* writer, const std::string& file, const std::string& path)
 {
@@ -139,6 +141,7 @@ std::string OutputFiles::StagedPath(const std::string& file)
 void OutputFiles::WriteMesh(const std::string& file, vtkPolyData* mesh)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetDataModeToBinary();
   writer->SetInputData(mesh);
   RunWriter(writer.Get(), file, this->StagedPath(file));
 }
@@ -146,6 +149,7 @@ void OutputFiles::WriteMesh(const std::string& file, vtkPolyData* mesh)
 void OutputFiles::WriteSurfaces(const std::string& file, vtkPartitionedDataSetCollection* surfaces)
 {
   vtkNew<vtkXMLPartitionedDataSetCollectionWriter> writer;
+  writer->SetDataModeToBinary();
   writer->SetInputDataObject(surfaces);
   RunWriter(writer.Get(), file, this->StagedPath(file));
 }

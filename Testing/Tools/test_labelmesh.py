@@ -70,6 +70,7 @@ def write_vti(path, array, name="Labels"):
     scalars.SetName(name)
     image.GetPointData().AddArray(scalars)
     writer = vtkXMLImageDataWriter()
+    writer.SetDataModeToBinary()  # appended data cannot be read back with the Expat of an up-to-date Debian 12
     writer.SetFileName(str(path))
     writer.SetInputData(image)
     writer.Write()
