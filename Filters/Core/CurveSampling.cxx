@@ -238,14 +238,6 @@ private:
     return this->Place(x, materials, 1);
   }
 
-  static double DistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b)
-  {
-    const Vec3 ab = b - a;
-    const double squared = ab.squaredNorm();
-    const double t = squared > 0 ? std::clamp((x - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
-    return (x - a - t * ab).norm();
-  }
-
   const JunctionNetwork& Network;
   const IndicatorSet& Indicators;
   const Grid<float>& TargetLength;

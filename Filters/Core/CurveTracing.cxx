@@ -113,14 +113,6 @@ std::vector<SeedCell> FindSeedCells(const IndicatorSet& indicators)
     });
 }
 
-double DistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b)
-{
-  const Vec3 ab = b - a;
-  const double squared = ab.squaredNorm();
-  const double t = squared > 0 ? std::clamp((x - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
-  return (x - a - t * ab).norm();
-}
-
 class Tracer
 {
 public:
@@ -467,6 +459,14 @@ private:
   std::unordered_map<End, int, EndHash> Ends;
   Index NextZeroCell = 0;
 };
+}
+
+double DistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b)
+{
+  const Vec3 ab = b - a;
+  const double squared = ab.squaredNorm();
+  const double t = squared > 0 ? std::clamp((x - a).dot(ab) / squared, 0.0, 1.0) : 0.0;
+  return (x - a - t * ab).norm();
 }
 
 JunctionNetwork TraceJunctions(const IndicatorSet& indicators, const Monitor& monitor)

@@ -38,6 +38,9 @@ struct JunctionNetwork
 /// 0.2 voxel and a Gauss-Newton corrector; where a fourth material wins, that 0-cell is solved and the curve ends
 /// there. Left-over three-label seeds give closed curves and those between 0-cells that the lattice does not show.
 JunctionNetwork TraceJunctions(const IndicatorSet& indicators, const Monitor& monitor);
+
+/// From x to the nearest point of the segment from a to b.
+double DistanceToSegment(const Vec3& x, const Vec3& a, const Vec3& b);
 }
 
 #endif

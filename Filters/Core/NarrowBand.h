@@ -25,7 +25,6 @@ public:
   /// The signed distance of a mask (see SignedDistance) as phi.
   NarrowBand(const Lattice& frame, const float* mask, double band);
 
-  Index NumberOfActiveSamples() const { return this->Active; }
   Index NumberOfInsideSamples() const { return this->Inside; } ///< of the mask
 
   /// phi_t = curvature |grad phi| for `time` (voxels squared). No sample changes its side: |phi| stays at least 0.05 of
