@@ -3,8 +3,10 @@
 
 #include "Junction.h"
 #include "ManifoldLabels.h"
+#include "ParticlePlacement.h"
 #include "Relaxation.h"
 #include "TetraLabeling.h"
+#include "TriangleMending.h"
 
 #include <Eigen/Geometry>
 
@@ -27,9 +29,9 @@ constexpr std::size_t SmallestPatch = 150;
 
 constexpr int RepairSweeps = 12;
 
-// What a fault costs. A triangle below the wanted ratio costs 1 and up to 111: rather several that lack a little than
-// one that lacks much.
-constexpr double WorstCost = 100.0;
+constexpr double SliverRatio = 0.3; // triangles below are where particles are missing or too many
+
+// What a fault costs, beside TriangleFault.
 constexpr double WrongFaceCost = 200.0;
 constexpr double NonManifoldCost = 120.0;
 constexpr double LostPairCost = 80.0;
@@ -70,97 +72,80 @@ MaterialSet United(const MaterialSet& a, const MaterialSet& b)
   }
   return united;
 }
-
-/// A particle on the junction of exactly these two or three materials near x; false where there is none.
-bool PlaceOnJunction(
-  const IndicatorSet& indicators, const MaterialSet& materials, const Vec3& x, double length, Particle& particle)
-{
-  particle = Particle();
-  particle.TargetLength = length;
-  particle.Materials = materials;
-  if (materials.Size() == 2)
-  {
-    return PutOnInterface(indicators, materials[0], materials[1], x, length, particle);
-  }
-  const Projection p = ProjectToJunction(indicators, materials.begin(), 3, x);
-  const RankedMaterial rival = indicators.LargestBut(p.Position, materials.begin(), 3);
-  particle.Position = p.Position;
-  particle.Residual = p.Residual;
-  particle.CellDimension = 1;
-  return p.Converged && (p.Position - x).norm() < length &&
-    (rival.Material == NoMaterial || rival.Value <= indicators.Value(materials[0], p.Position));
-}
 }
 
-std::vector<BadSite> FindBadSites(
-  const std::vector<Particle>& particles, const std::vector<InterfaceTriangle>& faces, double wantedRatio)
+std::vector<Fault> FindFaults(const SurfaceComplex& complex)
 {
-  std::vector<BadSite> sites;
+  const std::vector<InterfaceTriangle> faces = complex.AliveTriangles();
+  std::vector<Fault> faults;
   for (const Edge& edge : NonManifoldEdges(faces))
   {
-    sites.push_back({ { edge.first, edge.second }, {} });
+    faults.push_back({ { edge.first, edge.second }, {} });
   }
   for (const Index vertex : NonManifoldVertices(faces))
   {
-    sites.push_back({ { vertex }, {} });
+    faults.push_back({ { vertex }, {} });
   }
   for (const InterfaceTriangle& face : faces)
   {
-    if (IsWrong(particles, face) || RatioOf(particles, face) < wantedRatio)
+    if (IsWrong(complex.AllVertices(), face) || RatioOf(complex.AllVertices(), face) < SliverRatio)
     {
-      sites.push_back({ { face.Vertices.begin(), face.Vertices.end() }, face.Materials });
+      faults.push_back({ { face.Vertices.begin(), face.Vertices.end() }, face.Materials });
     }
   }
-  return sites;
+  return faults;
 }
 
-LocalRepair::LocalRepair(const IndicatorSet& indicators, std::vector<Particle>& particles, double wantedRatio)
+LocalRepair::LocalRepair(const IndicatorSet& indicators, SurfaceComplex& complex, double wantedRatio)
   : Indicators(indicators)
-  , Particles(particles)
+  , Complex(complex)
   , WantedRatio(wantedRatio)
-  , Grid(particles.size())
-  , Touched(particles.size(), 0)
-  , Deleted(particles.size(), 0)
+  , Grid(std::size_t(complex.NumberOfVertices()))
+  , Deleted(std::size_t(complex.NumberOfVertices()), 0)
 {
-  for (const Particle& p : particles)
+  for (const Particle& p : complex.AllVertices())
   {
     this->Grid.Insert(p.Position, p.TargetLength);
   }
 }
 
-bool LocalRepair::Mend(const BadSite& site)
+bool LocalRepair::Mend(const Fault& fault)
 {
-  for (const Index v : site.Vertices)
+  for (const Index v : fault.Vertices)
   {
-    if (this->Touched[v])
+    if (this->Deleted[v])
     {
       return false;
     }
   }
-  const Patch patch = this->PatchAround(site);
-  std::vector<Pair> pairs;
-  const double before = this->Badness(patch, nullptr, &pairs);
+  const Patch patch = this->PatchAround(fault);
+  const Judgement before = this->Judge(patch, {});
+  if (before.Badness == 0.0 || !this->AreThoseOfTheWhole(patch, before.Faces))
+  {
+    return false;
+  }
   std::vector<Index> local;
   for (std::size_t n = 0; n < patch.Ids.size(); ++n)
   {
-    if (std::find(site.Vertices.begin(), site.Vertices.end(), patch.Ids[n]) != site.Vertices.end())
+    if (std::find(fault.Vertices.begin(), fault.Vertices.end(), patch.Ids[n]) != fault.Vertices.end())
     {
       local.push_back(Index(n));
     }
   }
-  double best = before;
+  Judgement best;
+  best.Badness = before.Badness;
   Patch mended;
   const auto judge = [&](Patch& variant)
   {
-    const double badness = this->Badness(variant, &pairs, nullptr);
-    if (badness < best)
+    Judgement judgement = this->Judge(variant, before.Pairs);
+    if (judgement.Badness < best.Badness)
     {
-      best = badness;
+      best = std::move(judgement);
       mended = std::move(variant);
     }
-    return best == 0.0;
+    return best.Badness == 0.0;
   };
-  for (Patch& variant : this->Variants(patch, local, site))
+  for (Patch& variant : this->Variants(patch, local, fault))
   {
     this->RelaxCore(variant);
     if (judge(variant))
@@ -168,10 +153,9 @@ bool LocalRepair::Mend(const BadSite& site)
       break;
     }
   }
-  if (best > 0.0)
+  if (best.Badness > 0.0)
   {
-    // Relaxing evens out distances, which is not always what the worst triangle wants: single moves are taken as they
-    // are.
+    // Relaxing evens out distances, which is not always what is wanted: single moves are taken as they are.
     for (Patch& variant : this->Moves(patch, local))
     {
       if (judge(variant))
@@ -180,21 +164,17 @@ bool LocalRepair::Mend(const BadSite& site)
       }
     }
   }
-  if (best < before)
-  {
-    this->Commit(patch, mended);
-  }
-  return best < before;
+  return best.Badness < before.Badness && this->Commit(patch, mended, best.Faces);
 }
 
-LocalRepair::Patch LocalRepair::PatchAround(const BadSite& site) const
+LocalRepair::Patch LocalRepair::PatchAround(const Fault& fault) const
 {
   Patch patch;
   patch.Centre.setZero();
-  for (const Index v : site.Vertices)
+  for (const Index v : fault.Vertices)
   {
-    patch.Centre += this->Particles[v].Position / double(site.Vertices.size());
-    patch.Length += this->Particles[v].TargetLength / double(site.Vertices.size());
+    patch.Centre += this->Complex.Vertex(v).Position / double(fault.Vertices.size());
+    patch.Length += this->Complex.Vertex(v).TargetLength / double(fault.Vertices.size());
   }
   for (double radius = PatchRadius; radius < LargestPatch && patch.Ids.size() < SmallestPatch; radius *= 1.4)
   {
@@ -209,59 +189,74 @@ LocalRepair::Patch LocalRepair::PatchAround(const BadSite& site) const
       });
   }
   std::sort(patch.Ids.begin(), patch.Ids.end());
+  const double reach = CoreRadius * patch.Length;
   for (const Index n : patch.Ids)
   {
-    patch.Particles.push_back(this->Particles[n]);
+    patch.Particles.push_back(this->Complex.Vertex(n));
+    patch.Core.push_back((this->Complex.Vertex(n).Position - patch.Centre).squaredNorm() < reach * reach);
   }
   return patch;
 }
 
-double LocalRepair::Badness(const Patch& patch, const std::vector<Pair>* wantedPairs, std::vector<Pair>* pairs) const
+LocalRepair::Judgement LocalRepair::Judge(const Patch& patch, const std::vector<Pair>& wantedPairs) const
 {
-  const InterfaceComplex complex = BuildInterface(this->Indicators, patch.Particles);
-  const double reach = CoreRadius * patch.Length;
-  const auto inCore = [&](Index v)
-  { return (patch.Particles[v].Position - patch.Centre).squaredNorm() < reach * reach; };
-  double badness = 0.0;
-  std::vector<Pair> present;
+  const InterfaceComplex complex = BuildInterface(this->Indicators, patch.Particles, patch.Core);
+  Judgement result;
   for (const InterfaceTriangle& face : complex.Faces)
   {
-    if (!inCore(face.Vertices[0]) && !inCore(face.Vertices[1]) && !inCore(face.Vertices[2]))
+    if (patch.Core[face.Vertices[0]] || patch.Core[face.Vertices[1]] || patch.Core[face.Vertices[2]])
     {
-      continue;
+      result.Badness += TriangleFault(RatioOf(patch.Particles, face), this->WantedRatio);
+      result.Badness += IsWrong(patch.Particles, face) ? WrongFaceCost : 0.0;
+      result.Pairs.push_back(PairOf(face));
+      result.Faces.push_back(face);
     }
-    const double ratio = RatioOf(patch.Particles, face);
-    const double lack = std::max(0.0, 1.0 - ratio / this->WantedRatio);
-    badness += lack > 0.0 ? 1.0 + 10.0 * lack + WorstCost * lack * lack : 0.0;
-    badness += IsWrong(patch.Particles, face) ? WrongFaceCost : 0.0;
-    present.push_back(PairOf(face));
   }
   for (const Edge& edge : NonManifoldEdges(complex.Faces))
   {
-    badness += inCore(edge.first) || inCore(edge.second) ? NonManifoldCost : 0.0;
+    result.Badness += patch.Core[edge.first] || patch.Core[edge.second] ? NonManifoldCost : 0.0;
   }
   for (const Index vertex : NonManifoldVertices(complex.Faces))
   {
-    badness += inCore(vertex) ? PinchedCost : 0.0;
+    result.Badness += patch.Core[vertex] ? PinchedCost : 0.0;
   }
-  std::sort(present.begin(), present.end());
-  present.erase(std::unique(present.begin(), present.end()), present.end());
-  if (wantedPairs)
+  std::sort(result.Pairs.begin(), result.Pairs.end());
+  result.Pairs.erase(std::unique(result.Pairs.begin(), result.Pairs.end()), result.Pairs.end());
+  for (const Pair& pair : wantedPairs)
   {
-    for (const Pair& pair : *wantedPairs)
+    result.Badness += std::binary_search(result.Pairs.begin(), result.Pairs.end(), pair) ? 0.0 : LostPairCost;
+  }
+  return result;
+}
+
+bool LocalRepair::AreThoseOfTheWhole(const Patch& patch, const std::vector<InterfaceTriangle>& faces) const
+{
+  std::vector<std::array<Index, 5>> local, whole;
+  const auto append = [](std::array<Index, 3> v, const InterfaceTriangle& face, std::vector<std::array<Index, 5>>& to)
+  {
+    std::sort(v.begin(), v.end());
+    const Pair pair = PairOf(face);
+    to.push_back({ v[0], v[1], v[2], pair[0], pair[1] });
+  };
+  for (const InterfaceTriangle& face : faces)
+  {
+    append({ patch.Ids[face.Vertices[0]], patch.Ids[face.Vertices[1]], patch.Ids[face.Vertices[2]] }, face, local);
+  }
+  for (std::size_t n = 0; n < patch.Ids.size(); ++n)
+  {
+    for (const std::int32_t t : patch.Core[n] ? this->Complex.Star(patch.Ids[n]) : std::vector<std::int32_t>())
     {
-      badness += std::binary_search(present.begin(), present.end(), pair) ? 0.0 : LostPairCost;
+      append(this->Complex.Triangle(t).Vertices, this->Complex.Triangle(t), whole);
     }
   }
-  if (pairs)
-  {
-    *pairs = present;
-  }
-  return badness;
+  std::sort(local.begin(), local.end());
+  std::sort(whole.begin(), whole.end());
+  whole.erase(std::unique(whole.begin(), whole.end()), whole.end());
+  return local == whole;
 }
 
 std::vector<LocalRepair::Patch> LocalRepair::Variants(
-  const Patch& patch, const std::vector<Index>& site, const BadSite& fault) const
+  const Patch& patch, const std::vector<Index>& site, const Fault& fault) const
 {
   std::vector<Patch> variants{ patch }; // relaxing alone
   this->AppendDeletions(patch, site, variants);
@@ -277,6 +272,7 @@ LocalRepair::Patch LocalRepair::Without(const Patch& patch, Index v)
   Patch variant = patch;
   variant.Particles.erase(variant.Particles.begin() + v);
   variant.Ids.erase(variant.Ids.begin() + v);
+  variant.Core.erase(variant.Core.begin() + v);
   return variant;
 }
 
@@ -289,6 +285,7 @@ void LocalRepair::AppendWith(
     variants.push_back(base);
     variants.back().Particles.push_back(added);
     variants.back().Ids.push_back(-1);
+    variants.back().Core.push_back(1);
   }
 }
 
@@ -412,7 +409,7 @@ void LocalRepair::AppendCollapses(
 }
 
 void LocalRepair::AppendJunctions(
-  const Patch& patch, const std::vector<Index>& site, const BadSite& fault, std::vector<Patch>& variants) const
+  const Patch& patch, const std::vector<Index>& site, const Fault& fault, std::vector<Patch>& variants) const
 {
   Vec3 centroid = Vec3::Zero();
   for (const Index v : site)
@@ -471,43 +468,57 @@ void LocalRepair::RelaxCore(Patch& patch) const
   Relax(this->Indicators, nullptr, patch.Particles, moving, options);
 }
 
-void LocalRepair::Commit(const Patch& before, const Patch& after)
+bool LocalRepair::Commit(const Patch& before, const Patch& after, const std::vector<InterfaceTriangle>& faces)
 {
-  for (const Index n : before.Ids)
-  {
-    const double distance = (this->Particles[n].Position - before.Centre).norm();
-    this->Touched[n] = this->Touched[n] || distance < (CoreRadius + MoveRadius) * before.Length;
-  }
-  std::vector<char> kept(before.Ids.size(), 0);
+  this->Complex.Begin();
+  std::vector<Index> numbers, core;
   for (std::size_t n = 0; n < after.Ids.size(); ++n)
   {
+    numbers.push_back(after.Ids[n] < 0 ? this->Complex.AddVertex(after.Particles[n]) : after.Ids[n]);
+    if (after.Core[n])
+    {
+      core.push_back(numbers.back());
+    }
+  }
+  for (std::size_t n = 0; n < before.Ids.size(); ++n)
+  {
+    if (before.Core[n])
+    {
+      core.push_back(before.Ids[n]); // the deleted ones too
+    }
+  }
+  std::sort(core.begin(), core.end());
+  core.erase(std::unique(core.begin(), core.end()), core.end());
+  std::vector<InterfaceTriangle> inserted = faces;
+  for (InterfaceTriangle& face : inserted)
+  {
+    for (Index& v : face.Vertices)
+    {
+      v = numbers[v];
+    }
+  }
+  if (!this->Complex.ReplaceStars(core, inserted))
+  {
+    this->Complex.Rollback();
+    return false;
+  }
+  std::vector<Index> kept;
+  for (std::size_t n = 0; n < after.Ids.size(); ++n)
+  {
+    this->Complex.SetVertex(numbers[n], after.Particles[n]);
+    kept.push_back(numbers[n]);
     if (after.Ids[n] < 0)
     {
-      this->Particles.push_back(after.Particles[n]);
-      this->Touched.push_back(1);
-      this->Deleted.push_back(0);
       this->Grid.Insert(after.Particles[n].Position, after.Particles[n].TargetLength);
-      continue;
-    }
-    this->Particles[after.Ids[n]] = after.Particles[n];
-    kept[std::lower_bound(before.Ids.begin(), before.Ids.end(), after.Ids[n]) - before.Ids.begin()] = 1;
-  }
-  for (std::size_t n = 0; n < kept.size(); ++n)
-  {
-    this->Deleted[before.Ids[n]] = !kept[n];
-  }
-}
-
-void LocalRepair::Finish()
-{
-  std::size_t kept = 0;
-  for (std::size_t n = 0; n < this->Particles.size(); ++n)
-  {
-    if (!this->Deleted[n])
-    {
-      this->Particles[kept++] = this->Particles[n];
+      this->Deleted.push_back(0);
     }
   }
-  this->Particles.resize(kept);
+  this->Complex.Commit();
+  std::sort(kept.begin(), kept.end());
+  for (const Index n : before.Ids)
+  {
+    this->Deleted[n] = !std::binary_search(kept.begin(), kept.end(), n);
+  }
+  return true;
 }
 }

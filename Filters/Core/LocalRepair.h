@@ -3,53 +3,60 @@
 #ifndef LabelMesh_Core_LocalRepair_h
 #define LabelMesh_Core_LocalRepair_h
 
-#include "InterfaceMesh.h"
 #include "IndicatorSet.h"
 #include "NeighborGrid.h"
+#include "SurfaceComplex.h"
 
 namespace LabelMesh
 {
-/// What is bad somewhere: a triangle below the wanted ratio, a wrong face, a non-manifold edge or vertex.
-struct BadSite
+/// Where the particles did not give the mesh that they should: a wrong face, a non-manifold edge or vertex, a sliver.
+struct Fault
 {
-  std::vector<Index> Vertices;                                   ///< one to three particles
+  std::vector<Index> Vertices;                                   ///< one to three
   std::array<MaterialId, 2> Materials{ NoMaterial, NoMaterial }; ///< of the face, if it is one
 };
 
-/// The bad sites of an interface, in the order of its faces.
-std::vector<BadSite> FindBadSites(
-  const std::vector<Particle>& particles, const std::vector<InterfaceTriangle>& faces, double wantedRatio);
+/// The faults of an interface, in the order of its faces.
+std::vector<Fault> FindFaults(const SurfaceComplex& complex);
 
-/// Repairs sites one after another, each as a transaction: the particles within a few target lengths are
-/// tetrahedralised by themselves (the empty balls of interface faces are small, so that the faces around the site are
-/// those of the whole), changes are tried (relaxing, deleting a vertex, joining two, sliding one along its curve,
-/// merging two of curves, adding one on a surface or a curve, uniting a junction with one closer than half a target
-/// length), and the best one is kept if the faces around the site have become better. A site that has been touched
-/// waits for the next pass.
+/// Mends faults one after another, each as a transaction: the particles within a few target lengths are
+/// tetrahedralised by themselves (the empty balls of interface faces are small, so that the faces around the fault are
+/// those of the whole: checked), changes are tried (relaxing, deleting a vertex, joining two, sliding one along its
+/// curve, merging two of curves, adding one on a surface or a curve, uniting a junction with one closer than half a
+/// target length), and the best one is kept if the faces around have become better and fit the rest of the mesh.
 class LocalRepair
 {
 public:
-  LocalRepair(const IndicatorSet& indicators, std::vector<Particle>& particles, double wantedRatio);
+  /// The complex must be the interface of the Delaunay tetrahedra of its vertices.
+  LocalRepair(const IndicatorSet& indicators, SurfaceComplex& complex, double wantedRatio);
 
-  /// True when the site was made better.
-  bool Mend(const BadSite& site);
-  /// Removes the particles that were deleted; call it once, at the end of a pass.
-  void Finish();
+  /// True when the fault was mended or made less.
+  bool Mend(const Fault& fault);
 
 private:
   struct Patch
   {
     std::vector<Particle> Particles;
     std::vector<Index> Ids; ///< of the whole; -1: new
+    std::vector<char> Core; ///< whether the faces at it are judged and replaced
     Vec3 Centre;
     double Length = 0.0;
   };
+  /// The faces at the core of a patch, in the patch's numbers, and how bad they are.
+  struct Judgement
+  {
+    double Badness = 0.0;
+    std::vector<InterfaceTriangle> Faces;
+    std::vector<std::array<MaterialId, 2>> Pairs; ///< of materials, ascending
+  };
 
-  Patch PatchAround(const BadSite& site) const;
-  double Badness(const Patch& patch, const std::vector<std::array<MaterialId, 2>>* wantedPairs,
-    std::vector<std::array<MaterialId, 2>>* pairs) const;
+  Patch PatchAround(const Fault& fault) const;
+  /// `wantedPairs`: pairs of materials that are missed where they are not there.
+  Judgement Judge(const Patch& patch, const std::vector<std::array<MaterialId, 2>>& wantedPairs) const;
+  /// Whether the faces are those that the whole mesh has there.
+  bool AreThoseOfTheWhole(const Patch& patch, const std::vector<InterfaceTriangle>& faces) const;
   /// Changes that may mend the site, whose vertices are `site` of the patch.
-  std::vector<Patch> Variants(const Patch& patch, const std::vector<Index>& site, const BadSite& fault) const;
+  std::vector<Patch> Variants(const Patch& patch, const std::vector<Index>& site, const Fault& fault) const;
   /// The patch with one 2-cell vertex of the site moved a little, in several directions.
   std::vector<Patch> Moves(const Patch& patch, const std::vector<Index>& site) const;
   static Patch Without(const Patch& patch, Index v);
@@ -61,15 +68,16 @@ private:
   void AppendCollapses(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
   void AppendSlides(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
   void AppendJunctions(
-    const Patch& patch, const std::vector<Index>& site, const BadSite& fault, std::vector<Patch>& variants) const;
+    const Patch& patch, const std::vector<Index>& site, const Fault& fault, std::vector<Patch>& variants) const;
   void RelaxCore(Patch& patch) const;
-  void Commit(const Patch& before, const Patch& after);
+  /// False, with nothing changed, where the new faces do not fit the rest of the mesh.
+  bool Commit(const Patch& before, const Patch& after, const std::vector<InterfaceTriangle>& faces);
 
   const IndicatorSet& Indicators;
-  std::vector<Particle>& Particles;
+  SurfaceComplex& Complex;
   double WantedRatio;
-  NeighborGrid Grid;
-  std::vector<char> Touched, Deleted;
+  NeighborGrid Grid; ///< of the vertices, where they were at first; numbered alike
+  std::vector<char> Deleted;
 };
 }
 

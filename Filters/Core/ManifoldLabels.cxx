@@ -20,9 +20,56 @@ struct FanPiece
   Index A, B;
 };
 
+/// True when the pieces are those of two materials, face by face, and go once around the vertex: what nearly all
+/// vertices have, and quickly told.
+bool IsPlain(const std::vector<FanPiece>& pieces)
+{
+  constexpr std::size_t most = 24; // triangles around a vertex
+  const std::size_t count = pieces.size() / 2;
+  std::array<Index, most> passed;
+  if (count < 3 || count > most)
+  {
+    return false;
+  }
+  for (std::size_t n = 2; n < pieces.size(); ++n)
+  {
+    const MaterialId m = pieces[n].Material;
+    if ((m != pieces[0].Material && m != pieces[1].Material) || m == pieces[n ^ 1].Material)
+    {
+      return false;
+    }
+  }
+  Index at = pieces[0].A;
+  std::size_t piece = 0;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    if (std::find(passed.begin(), passed.begin() + n, at) != passed.begin() + n)
+    {
+      return false;
+    }
+    passed[n] = at;
+    at = pieces[piece].A == at ? pieces[piece].B : pieces[piece].A;
+    std::size_t next = 0;
+    while (next < pieces.size() && (next == piece || (pieces[next].A != at && pieces[next].B != at)))
+    {
+      next += 2;
+    }
+    if (next >= pieces.size())
+    {
+      return false;
+    }
+    piece = next;
+  }
+  return at == pieces[0].A;
+}
+
 /// The number of fans beyond one that the pieces of each material form: pieces that share a vertex are joined.
 int ExtraFans(std::vector<FanPiece>& pieces)
 {
+  if (IsPlain(pieces))
+  {
+    return 0;
+  }
   std::sort(pieces.begin(), pieces.end(),
     [](const FanPiece& p, const FanPiece& q)
     { return std::tie(p.Material, p.A, p.B) < std::tie(q.Material, q.A, q.B); });
@@ -67,6 +114,10 @@ int ExtraFans(std::vector<FanPiece>& pieces)
 template <typename Visit>
 void ForTiedEdges(const std::vector<FanPiece>& pieces, Visit&& visit)
 {
+  if (IsPlain(pieces))
+  {
+    return;
+  }
   std::vector<std::pair<MaterialId, Index>> uses;
   for (const FanPiece& p : pieces)
   {
@@ -448,14 +499,14 @@ std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& fac
     });
 }
 
-void MakeManifold(
-  const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside, TetraLabels& labels)
+void MakeManifold(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
+  const std::vector<char>& core, TetraLabels& labels)
 {
   const std::vector<InterfaceTriangle> faces = InterfaceFaces(particles, tetrahedra, labels, outside);
   std::vector<Index> faulty = VertexFaces(faces).Collect<Index>(faces,
-    [](Index v, std::vector<FanPiece>& pieces, std::vector<Index>& found)
+    [&core](Index v, std::vector<FanPiece>& pieces, std::vector<Index>& found)
     {
-      if (ExtraFans(pieces) + TiedEdges(pieces) > 0)
+      if ((core.empty() || core[v]) && ExtraFans(pieces) + TiedEdges(pieces) > 0)
       {
         found.push_back(v);
       }

@@ -18,9 +18,10 @@ std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& fac
 /// Relabels tetrahedra at edges and vertices where a material's surface would not be manifold: necks and sheets thinner
 /// than the particles' distance, where the labels of single tetrahedra are left to chance. At each, a group of equally
 /// labelled tetrahedra around it gets the label of a neighbour that all their corners allow; of the changes that leave
-/// fewer faults the one is taken whose tetrahedra are the least certain.
+/// fewer faults the one is taken whose tetrahedra are the least certain. Where `core` is not empty, only vertices that
+/// it marks are looked at, and what their mending leads to.
 void MakeManifold(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
-  TetraLabels& labels);
+  const std::vector<char>& core, TetraLabels& labels);
 }
 
 #endif

@@ -3,96 +3,133 @@
 
 #include "LocalRepair.h"
 #include "ManifoldLabels.h"
+#include "MeshImprovement.h"
+#include "SelfIntersections.h"
 #include "TetraLabeling.h"
 
 namespace LabelMesh
 {
 namespace
 {
-/// Keeps the vertices that triangles use, in their order.
-InterfaceMesh Compact(const std::vector<Particle>& particles, std::vector<InterfaceTriangle> faces)
-{
-  std::vector<Index> number(particles.size(), -1);
-  for (const InterfaceTriangle& face : faces)
-  {
-    for (const Index v : face.Vertices)
-    {
-      number[v] = 0;
-    }
-  }
-  InterfaceMesh mesh;
-  for (std::size_t v = 0; v < particles.size(); ++v)
-  {
-    if (number[v] == 0)
-    {
-      number[v] = Index(mesh.Vertices.size());
-      mesh.Vertices.push_back(particles[v]);
-    }
-  }
-  for (InterfaceTriangle& face : faces)
-  {
-    for (Index& v : face.Vertices)
-    {
-      v = number[v];
-    }
-  }
-  mesh.Triangles = std::move(faces);
-  return mesh;
-}
-
 /// Counts what is wrong with a mesh.
-void Judge(
-  const std::vector<Particle>& particles, const InterfaceComplex& complex, double wantedRatio, MeshResult& result)
+void Judge(const InterfaceMesh& mesh, double wantedRatio, MeshResult& result)
 {
-  result.Tetrahedra = complex.Tetrahedra.Size();
-  result.EmptySets = complex.Labels.EmptySets;
-  result.NonManifoldEdges = Index(NonManifoldEdges(complex.Faces).size());
-  result.NonManifoldVertices = Index(NonManifoldVertices(complex.Faces).size());
-  result.WrongFaces = result.BadTriangles = 0;
-  result.WorstRatio = 1.0;
-  for (const InterfaceTriangle& face : complex.Faces)
+  result.NonManifoldEdges = Index(NonManifoldEdges(mesh.Triangles).size());
+  result.NonManifoldVertices = Index(NonManifoldVertices(mesh.Triangles).size());
+  for (const InterfaceTriangle& face : mesh.Triangles)
   {
-    const double ratio = RadiusRatio(
-      particles[face.Vertices[0]].Position, particles[face.Vertices[1]].Position, particles[face.Vertices[2]].Position);
+    const auto& v = face.Vertices;
+    const double ratio =
+      RadiusRatio(mesh.Vertices[v[0]].Position, mesh.Vertices[v[1]].Position, mesh.Vertices[v[2]].Position);
     result.WorstRatio = std::min(result.WorstRatio, ratio);
     result.BadTriangles += ratio < wantedRatio;
-    result.WrongFaces += IsWrong(particles, face);
+    result.WrongFaces += IsWrong(mesh.Vertices, face);
+  }
+}
+
+/// Mends what the particles got wrong, until nothing is left or nothing helps.
+void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const MeshOptions& options,
+  MeshResult& result, const Monitor& monitor)
+{
+  std::vector<Fault> faults = FindFaults(complex);
+  if (faults.empty())
+  {
+    return;
+  }
+  LocalRepair repair(indicators, complex, options.RepairBelow);
+  for (; result.Rounds < options.RepairRounds && !faults.empty(); ++result.Rounds)
+  {
+    Index mended = 0;
+    for (std::size_t n = 0; n < faults.size(); ++n)
+    {
+      monitor.Step((result.Rounds + double(n) / double(faults.size())) / options.RepairRounds, "Repairing");
+      mended += repair.Mend(faults[n]);
+    }
+    if (mended == 0)
+    {
+      return;
+    }
+    faults = FindFaults(complex);
+  }
+}
+
+/// The vertices of triangles that cut each other, ascending.
+std::vector<Index> VerticesOfCuts(const SurfaceComplex& complex)
+{
+  std::vector<Vec3> points;
+  for (const Particle& p : complex.AllVertices())
+  {
+    points.push_back(p.Position);
+  }
+  std::vector<TriangleCorners> corners;
+  for (const InterfaceTriangle& triangle : complex.AliveTriangles())
+  {
+    corners.push_back(triangle.Vertices);
+  }
+  std::vector<Index> vertices;
+  for (const auto& pair : FindSelfIntersections(points, corners).Pairs)
+  {
+    for (const Index t : pair)
+    {
+      vertices.insert(vertices.end(), corners[t].begin(), corners[t].end());
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// Improves the mesh. The faces of Delaunay tetrahedra do not cut each other: where improved ones do, the mesh stays as
+/// it was, and the rest is improved again.
+void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex, const MeshOptions& options,
+  MeshResult& result, const Monitor& monitor)
+{
+  constexpr int attempts = 5;
+  ImproveOptions improve;
+  improve.Passes = options.ImprovePasses;
+  improve.WantedRatio = options.RepairBelow;
+  for (int attempt = 0; attempt < attempts; ++attempt)
+  {
+    SurfaceComplex improved = complex;
+    ImproveMesh(
+      indicators, improved, improve, monitor.Part(double(attempt) / attempts, double(attempt + 1) / attempts));
+    std::vector<Index> frozen = VerticesOfCuts(improved);
+    if (frozen.empty())
+    {
+      complex = std::move(improved);
+      return;
+    }
+    result.KeptFromCutting += Index(frozen.size());
+    frozen.erase(std::lower_bound(frozen.begin(), frozen.end(), complex.NumberOfVertices()), frozen.end());
+    for (int ring = 0; ring <= attempt; ++ring)
+    {
+      std::vector<Index> around;
+      for (const Index v : frozen)
+      {
+        complex.Freeze(v);
+        const std::vector<Index> neighbors = complex.Neighbors(v);
+        around.insert(around.end(), neighbors.begin(), neighbors.end());
+      }
+      frozen.swap(around);
+    }
   }
 }
 }
 
-MeshResult MeshInterfaces(const IndicatorSet& indicators, const std::vector<Particle>& particles,
-  const MeshOptions& options, const Monitor& monitor)
+MeshResult MeshInterfaces(
+  const IndicatorSet& indicators, std::vector<Particle> particles, const MeshOptions& options, const Monitor& monitor)
 {
   MeshResult result;
-  std::vector<Particle> current = particles;
   monitor.Step(0.0, "Tetrahedralising");
-  InterfaceComplex complex = BuildInterface(indicators, current);
-  for (; result.Rounds < options.RepairRounds; ++result.Rounds)
-  {
-    const std::vector<BadSite> sites = FindBadSites(current, complex.Faces, options.RepairBelow);
-    if (sites.empty())
-    {
-      break;
-    }
-    const Monitor round = monitor.Part(
-      double(result.Rounds + 1) / (options.RepairRounds + 1), double(result.Rounds + 2) / (options.RepairRounds + 1));
-    LocalRepair repair(indicators, current, options.RepairBelow);
-    Index mended = 0;
-    for (std::size_t n = 0; n < sites.size(); ++n)
-    {
-      round.Step(double(n) / double(sites.size()), "Repairing");
-      mended += repair.Mend(sites[n]);
-    }
-    repair.Finish();
-    if (mended == 0)
-    {
-      break;
-    }
-    complex = BuildInterface(indicators, current);
-  }
-  Judge(current, complex, options.RepairBelow, result);
-  result.Mesh = Compact(current, std::move(complex.Faces));
+  InterfaceComplex tetrahedra = BuildInterface(indicators, particles);
+  result.Tetrahedra = tetrahedra.Tetrahedra.Size();
+  result.EmptySets = tetrahedra.Labels.EmptySets;
+  SurfaceComplex complex({ std::move(particles), std::move(tetrahedra.Faces) });
+  tetrahedra = InterfaceComplex();
+  RepairFaults(indicators, complex, options, result, monitor.Part(0.5, 0.6));
+  ImproveWithoutCuts(indicators, complex, options, result, monitor.Part(0.6, 0.9));
+  result.Mesh = std::move(complex).Compacted();
+  Judge(result.Mesh, options.RepairBelow, result);
   monitor.Step(1.0);
   return result;
 }

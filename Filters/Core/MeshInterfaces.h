@@ -11,8 +11,9 @@ namespace LabelMesh
 {
 struct MeshOptions
 {
-  int RepairRounds = 8;     ///< at most; it ends sooner when nothing is left to repair
-  double RepairBelow = 0.5; ///< radius ratio under which a triangle is repaired
+  int RepairRounds = 8;     ///< at most; it ends sooner when no fault is left
+  int ImprovePasses = 3;    ///< of flipping edges and smoothing vertices
+  double RepairBelow = 0.5; ///< radius ratio under which a triangle is mended
 };
 
 struct MeshResult
@@ -25,15 +26,16 @@ struct MeshResult
   Index NonManifoldVertices = 0; ///< where the triangles of some material form more than one fan
   Index BadTriangles = 0;        ///< below RepairBelow
   double WorstRatio = 1.0;
-  int Rounds = 0;
+  int Rounds = 0;            ///< of repair
+  Index KeptFromCutting = 0; ///< vertices that were not improved because their triangles would have cut others
 };
 
 /// Delaunay tetrahedra of the particles, their labels, and the faces between different labels (paper, section 5.3);
-/// then rounds of local repair: at each triangle below RepairBelow, wrong face and non-manifold edge, particles are
-/// deleted or added and their neighbours relaxed; a site's change stays only while the site has become better. Throws
-/// std::runtime_error when the tetrahedralisation fails.
-MeshResult MeshInterfaces(const IndicatorSet& indicators, const std::vector<Particle>& particles,
-  const MeshOptions& options, const Monitor& monitor);
+/// then local repair where the particles did not give the mesh that they should (LocalRepair: wrong faces, non-manifold
+/// edges and vertices, slivers), and better triangles on the cells that there are (MeshImprovement). What was free of
+/// self-intersections stays so. Throws std::runtime_error when the tetrahedralisation fails.
+MeshResult MeshInterfaces(
+  const IndicatorSet& indicators, std::vector<Particle> particles, const MeshOptions& options, const Monitor& monitor);
 }
 
 #endif

@@ -161,7 +161,8 @@ std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& parti
     });
 }
 
-InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vector<Particle>& particles)
+InterfaceComplex BuildInterface(
+  const IndicatorSet& indicators, const std::vector<Particle>& particles, const std::vector<char>& core)
 {
   std::vector<Vec3> points;
   points.reserve(particles.size());
@@ -173,7 +174,7 @@ InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vecto
   complex.Tetrahedra = DelaunayTetrahedra(points);
   complex.Labels = LabelTetrahedra(indicators, particles, complex.Tetrahedra);
   const MaterialId outside = indicators.Background() != NoMaterial ? indicators.Background() : MaterialId(0);
-  MakeManifold(particles, complex.Tetrahedra, outside, complex.Labels);
+  MakeManifold(particles, complex.Tetrahedra, outside, core, complex.Labels);
   complex.Faces = InterfaceFaces(particles, complex.Tetrahedra, complex.Labels, outside);
   return complex;
 }

@@ -30,14 +30,15 @@ MaterialSet SharedMaterials(const std::vector<Particle>& particles, const std::a
 std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
   const Tetrahedralization& tetrahedra, const TetraLabels& labels, MaterialId outside);
 
-/// The interface of a set of particles: all of the above.
+/// The interface of a set of particles: all of the above. `core` as in MakeManifold.
 struct InterfaceComplex
 {
   Tetrahedralization Tetrahedra;
   TetraLabels Labels;
   std::vector<InterfaceTriangle> Faces;
 };
-InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vector<Particle>& particles);
+InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vector<Particle>& particles,
+  const std::vector<char>& core = std::vector<char>());
 
 /// A face is right if and only if both its materials are in the sets of all its vertices.
 bool IsWrong(const std::vector<Particle>& particles, const InterfaceTriangle& face);

@@ -211,29 +211,56 @@ TEST(MeshInterfaces, JunctionsOfFourMaterialsConform)
 TEST(LocalRepair, MendsASliverAndNothingElse)
 {
   const SampledFields fields(Frame, { Not(Ball(Centre, 15)), Ball(Centre, 15) });
-  SampleResult samples = SampleCells(*fields, Grid<float>(Frame, 2.0f), SampleOptions(), Monitor());
+  std::vector<Particle> particles =
+    SampleCells(*fields, Grid<float>(Frame, 2.0f), SampleOptions(), Monitor()).Particles;
   // A particle too many, close to another: its triangles are slivers.
-  Particle extra = samples.Particles[100];
+  Particle extra = particles[100];
   extra.Position = Centre + 15.0 * (extra.Position + Vec3(0.06, 0.04, -0.02) - Centre).normalized();
-  samples.Particles.push_back(extra);
-  MeshOptions without;
-  without.RepairRounds = 0;
-  const MeshResult broken = MeshInterfaces(*fields, samples.Particles, without, Monitor());
-  EXPECT_GT(broken.BadTriangles, 0);
-  const MeshResult mended = MeshInterfaces(*fields, samples.Particles, MeshOptions(), Monitor());
-  EXPECT_EQ(mended.BadTriangles, 0);
-  EXPECT_LE(mended.Mesh.Vertices.size(), samples.Particles.size());
+  particles.push_back(extra);
+  SurfaceComplex complex({ particles, BuildInterface(*fields, particles).Faces });
+  const std::vector<Fault> faults = FindFaults(complex);
+  ASSERT_FALSE(faults.empty());
+  LocalRepair repair(*fields, complex, 0.5);
+  EXPECT_TRUE(repair.Mend(faults.front()));
+  EXPECT_TRUE(FindFaults(complex).empty());
+  const InterfaceMesh mended = SurfaceComplex(complex).Compacted();
+  EXPECT_EQ(Index(mended.Triangles.size()), 2 * Index(mended.Vertices.size()) - 4) << "still a sphere";
   Index moved = 0;
-  for (const Particle& p : mended.Mesh.Vertices)
+  for (const Particle& p : mended.Vertices)
   {
-    bool same = false;
-    for (const Particle& q : samples.Particles)
-    {
-      same = same || p.Position == q.Position;
-    }
-    moved += !same;
+    moved +=
+      std::none_of(particles.begin(), particles.end(), [&p](const Particle& q) { return p.Position == q.Position; });
   }
   EXPECT_LT(moved, 40);
+}
+
+TEST(LocalRepair, RefusesAPatchWhoseFacesAreNotThoseOfTheMesh)
+{
+  const SampledFields fields(Frame, { Not(Ball(Centre, 15)), Ball(Centre, 15) });
+  std::vector<Particle> particles =
+    SampleCells(*fields, Grid<float>(Frame, 2.0f), SampleOptions(), Monitor()).Particles;
+  Particle extra = particles[100];
+  extra.Position = Centre + 15.0 * (extra.Position + Vec3(0.06, 0.04, -0.02) - Centre).normalized();
+  particles.push_back(extra);
+  SurfaceComplex complex({ particles, BuildInterface(*fields, particles).Faces });
+  const std::vector<Fault> faults = FindFaults(complex);
+  ASSERT_FALSE(faults.empty());
+  // A flip beside the sliver: what the tetrahedra around say is no longer what the mesh has.
+  bool flipped = false;
+  for (const Index v : complex.Neighbors(100))
+  {
+    flipped = flipped || (v != Index(particles.size()) - 1 && complex.Flip(100, v));
+  }
+  ASSERT_TRUE(flipped);
+  const std::vector<InterfaceTriangle> before = complex.AliveTriangles();
+  LocalRepair repair(*fields, complex, 0.5);
+  EXPECT_FALSE(repair.Mend(faults.front()));
+  const std::vector<InterfaceTriangle> after = complex.AliveTriangles();
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t t = 0; t < before.size(); ++t)
+  {
+    EXPECT_EQ(before[t].Vertices, after[t].Vertices);
+  }
 }
 
 TEST(LocalRepair, SeesTheSurroundingsOfASiteWhereLengthsGrowFast)
