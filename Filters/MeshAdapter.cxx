@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshAdapter.h"
 
+#include "Core/VertexFans.h"
 #include "LabelMeshNames.h"
 
 #include <vtkAbstractArray.h>
@@ -203,7 +204,8 @@ void CopyTuples(vtkFieldData* from, vtkIdList* ids, vtkFieldData* to)
   }
 }
 
-/// The surface of material m: its triangles, turned so that normals point out of it.
+/// The surface of material m: its triangles, turned so that normals point out of it. Where it touches itself in a
+/// vertex each part gets a vertex of its own.
 vtkSmartPointer<vtkPolyData> SurfaceOf(
   MaterialId m, const std::vector<Index>& triangles, const InterfaceData& interface, vtkPolyData* mesh)
 {
@@ -212,6 +214,7 @@ vtkSmartPointer<vtkPolyData> SurfaceOf(
   auto pairs = NewArray<vtkTypeInt64Array>(Names::BoundaryLabels, 2, count);
   vtkNew<vtkIdList> cellIds;
   cellIds->SetNumberOfIds(count);
+  std::vector<std::array<Index, 3>> corners(static_cast<std::size_t>(count));
   std::vector<Index> used;
   used.reserve(static_cast<std::size_t>(3 * count));
   for (const Index t : triangles)
@@ -228,11 +231,19 @@ vtkSmartPointer<vtkPolyData> SurfaceOf(
     for (int c = 0; c < 3; ++c)
     {
       const auto at = std::lower_bound(used.begin(), used.end(), triangle.Vertices[order[c]]);
-      connectivity->SetValue(3 * i + c, at - used.begin());
+      corners[i][c] = at - used.begin();
     }
     pairs->SetTypedComponent(i, 0, interface.Materials[m].Label);
     pairs->SetTypedComponent(i, 1, interface.Materials[triangle.Materials[first ? 1 : 0]].Label);
     cellIds->SetId(i, triangles[i]);
+  }
+  for (const Index copied : SplitFans(corners, Index(used.size())))
+  {
+    used.push_back(used[copied]);
+  }
+  for (Index i = 0; i < 3 * count; ++i)
+  {
+    connectivity->SetValue(i, corners[i / 3][i % 3]);
   }
   vtkNew<vtkIdList> pointIds;
   pointIds->SetNumberOfIds(Index(used.size()));

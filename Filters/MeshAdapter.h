@@ -31,7 +31,8 @@ void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Partic
 void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output);
 
 /// One closed, outward-oriented vtkPolyData per label that is not the background, ascending, NAME and field data Label
-/// and Color, with the interface's own points; from any interface mesh that keeps the BoundaryLabels contract. A
+/// and Color, with the interface's own points (one where a surface touches itself stands there once for each fan of its
+/// triangles); from any interface mesh that keeps the BoundaryLabels contract. A
 /// material without triangles has an empty block. Point and cell arrays are kept; BoundaryLabels is (own label, the
 /// other side's), so that here too the normal points from the first to the second. Throws as ReadInterface does.
 void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output);

@@ -63,6 +63,7 @@ int vtkDelaunayLabelMesh::RequestData(
         const IndicatorSet indicators = MakeIndicatorSet(collection, header);
         MeshOptions options;
         options.RepairRounds = this->RepairRounds;
+        options.ImprovePasses = this->ImprovePasses;
         options.RepairBelow = this->RepairBelow;
         result = MeshInterfaces(indicators, sites, options, monitor.Part(0.05, 0.9));
       }
@@ -91,6 +92,7 @@ void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "RepairRounds: " << this->RepairRounds << "\n";
+  os << indent << "ImprovePasses: " << this->ImprovePasses << "\n";
   os << indent << "RepairBelow: " << this->RepairBelow << "\n";
   os << indent << "NumberOfTetrahedra: " << this->NumberOfTetrahedra << "\n";
   os << indent << "RoundsDone: " << this->RoundsDone << "\n";

@@ -21,12 +21,14 @@
  * Output port 1 (vtkPartitionedDataSetCollection, assembly root "Surfaces"): a block per material but the background,
  * ascending by label, NAME the material's: its closed surface, normals outward, with the points of port 0 to the last
  * bit and their arrays. "BoundaryLabels" is (own label, other side's) there. Field data Label, Color. A material that
- * was lost has an empty block.
+ * was lost has an empty block. A point where the surface touches itself stands there once for each fan of triangles.
  *
  * Method: a tetrahedron takes the material with the largest indicator at its circumcentre among those that are in the
- * sets of all four corners, so that no face crosses an interface (the paper asks the circumcentre alone). Then rounds
- * of local repair at triangles below RepairBelow, at faces whose materials are not in the sets of all their vertices,
- * and at edges where a surface is not manifold. The same input gives the same bits for any number of threads.
+ * sets of all four corners, so that no face crosses an interface (the paper asks the circumcentre alone). Then
+ * local repair at faces whose materials are not in the sets of all their vertices, at edges and vertices where a
+ * surface is not manifold and at slivers; then ImprovePasses passes of edge flips and of vertex smoothing by the
+ * inverse mean ratio, each vertex within its own cell; then single edits at triangles that are still below RepairBelow.
+ * No step makes triangles cut each other. The same input gives the same bits for any number of threads.
  *
  * Errors: arrays that are missing, labels that the indicators do not have, a failed tetrahedralisation.
  * Warnings: what repair could not mend, with its figure. Empty inputs give empty outputs with their arrays.
@@ -47,13 +49,20 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Rounds of local repair at most; 0: none. Default 8.
+  /// Rounds of local repair at most, while there are faults and it helps; 0: none. Default 8.
   vtkSetClampMacro(RepairRounds, int, 0, 1000);
   vtkGetMacro(RepairRounds, int);
   ///@}
 
   ///@{
-  /// The radius ratio below which a triangle is repaired. Default 0.5.
+  /// Passes over the finished mesh that flip edges and move vertices within their cells for better triangles; 0: none.
+  /// Default 3.
+  vtkSetClampMacro(ImprovePasses, int, 0, 1000);
+  vtkGetMacro(ImprovePasses, int);
+  ///@}
+
+  ///@{
+  /// The radius ratio below which a triangle is mended. Default 0.5.
   vtkSetClampMacro(RepairBelow, double, 0.0, 0.9);
   vtkGetMacro(RepairBelow, double);
   ///@}
@@ -85,6 +94,7 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   int RepairRounds = 8;
+  int ImprovePasses = 3;
   double RepairBelow = 0.5;
   vtkIdType NumberOfTetrahedra = 0;
   int RoundsDone = 0;

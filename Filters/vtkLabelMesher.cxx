@@ -555,6 +555,16 @@ int vtkLabelMesher::GetRepairRounds() const
   return this->Stages->Mesh->GetRepairRounds();
 }
 
+void vtkLabelMesher::SetImprovePasses(int passes)
+{
+  this->Stages->Mesh->SetImprovePasses(passes);
+}
+
+int vtkLabelMesher::GetImprovePasses() const
+{
+  return this->Stages->Mesh->GetImprovePasses();
+}
+
 void vtkLabelMesher::SetRepairBelow(double ratio)
 {
   this->Stages->Mesh->SetRepairBelow(ratio);

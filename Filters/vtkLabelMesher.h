@@ -150,9 +150,12 @@ public:
   ///@}
 
   ///@{
-  /// vtkDelaunayLabelMesh: rounds of repair at most (8); the radius ratio below which a triangle is repaired (0.5).
+  /// vtkDelaunayLabelMesh: rounds of repair at most (8); passes of improvement (3); the radius ratio below which a
+  /// triangle is mended (0.5).
   void SetRepairRounds(int rounds);
   int GetRepairRounds() const;
+  void SetImprovePasses(int passes);
+  int GetImprovePasses() const;
   void SetRepairBelow(double ratio);
   double GetRepairBelow() const;
   ///@}

@@ -236,6 +236,43 @@ TEST(MeshAdapter, SurfacesOfMaterials)
     0.75, 0.0);
 }
 
+TEST(MeshAdapter, SurfacesThatTouchInAVertexAreTakenApart)
+{
+  // Two tetrahedra of label 4 with one corner in common.
+  const CollectionHeader header = HeaderWith(OrientedFrame({ 0, 9, 0, 9, 0, 9 }, false), { 0, 4 }, 0);
+  InterfaceMesh pinched;
+  for (const Vec3& x :
+    { Vec3(2, 2, 2), Vec3(3, 2, 2), Vec3(2, 3, 2), Vec3(2, 2, 3), Vec3(1, 2, 2), Vec3(2, 1, 2), Vec3(2, 2, 1) })
+  {
+    Particle p;
+    p.Position = x;
+    p.Materials.Insert(0);
+    p.Materials.Insert(1);
+    pinched.Vertices.push_back(p);
+  }
+  for (const auto& c : { std::array<Index, 3>{ 0, 2, 1 }, { 0, 3, 2 }, { 0, 1, 3 }, { 1, 2, 3 }, { 0, 4, 5 },
+         { 0, 5, 6 }, { 0, 6, 4 }, { 4, 6, 5 } })
+  {
+    pinched.Triangles.push_back({ c, { 1, 0 } });
+  }
+  vtkNew<vtkPolyData> mesh;
+  InterfaceToPolyData(pinched, header, mesh);
+  EXPECT_EQ(CheckOf(mesh).Materials[1].NonManifoldVertices, 1);
+  vtkNew<vtkPartitionedDataSetCollection> surfaces;
+  SurfacesOfMaterials(mesh, surfaces);
+  vtkPolyData* surface = vtkPolyData::SafeDownCast(surfaces->GetPartition(0, 0));
+  EXPECT_EQ(surface->GetNumberOfPoints(), 8);
+  EXPECT_EQ(surface->GetPointData()->GetArray(Names::CellDimension)->GetNumberOfTuples(), 8);
+  const MeshCheck check = CheckOf(surface);
+  EXPECT_EQ(check.Materials[1].NonManifoldVertices, 0);
+  EXPECT_EQ(check.Materials[1].Components, 2);
+  EXPECT_TRUE(check.Materials[1].EdgeManifold() && check.Materials[1].Oriented());
+  std::array<double, 3> first, last;
+  surface->GetPoint(0, first.data());
+  surface->GetPoint(7, last.data());
+  EXPECT_EQ(first, last) << "the copy stands where the vertex stands";
+}
+
 TEST(MeshAdapter, ReadInterfaceRefusesOtherMeshes)
 {
   const CollectionHeader header = HeaderWith(OrientedFrame({ 0, 9, 0, 9, 0, 9 }, false), { 0, 4, 7 }, 0);
