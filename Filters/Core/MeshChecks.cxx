@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshChecks.h"
 
+#include "DisjointSets.h"
 #include "Parallel.h"
+#include "SelfIntersections.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -24,9 +25,13 @@ struct QualitySum
   TriangleQuality Quality;
   double Ratios = 0.0;
 
-  void Add(double ratio, double area)
+  void Add(double ratio, double area, Index triangle)
   {
     ++this->Quality.Triangles;
+    if (ratio < this->Quality.MinRadiusRatio || this->Quality.Worst < 0)
+    {
+      this->Quality.Worst = triangle;
+    }
     this->Ratios += ratio;
     this->Quality.MinRadiusRatio = std::min(this->Quality.MinRadiusRatio, ratio);
     this->Quality.Area += area;
@@ -54,34 +59,7 @@ struct EdgeUse
   }
 };
 
-class DisjointSets
-{
-public:
-  explicit DisjointSets(Index size)
-    : Parents(static_cast<std::size_t>(size))
-  {
-    std::iota(this->Parents.begin(), this->Parents.end(), Index(0));
-  }
-  Index Find(Index i)
-  {
-    while (this->Parents[i] != i)
-    {
-      i = this->Parents[i] = this->Parents[this->Parents[i]];
-    }
-    return i;
-  }
-  void Unite(Index a, Index b)
-  {
-    a = this->Find(a);
-    b = this->Find(b);
-    this->Parents[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<Index> Parents;
-};
-
-using Corners = std::array<Index, 3>;
+using Corners = TriangleCorners;
 
 std::vector<EdgeUse> SortedEdges(const std::vector<Corners>& surface)
 {
@@ -128,8 +106,8 @@ Index CheckEdges(const std::vector<EdgeUse>& uses, MaterialCheck& check, Disjoin
   return edges;
 }
 
-/// Vertices, fans and components.
-void CheckVertices(const std::vector<Corners>& surface, MaterialCheck& check, DisjointSets& fans)
+/// Vertices and fans; returns the pieces that the triangles make up.
+DisjointSets CheckVertices(const std::vector<Corners>& surface, MaterialCheck& check, DisjointSets& fans)
 {
   std::vector<std::pair<Index, Index>> corners; // (vertex, its fan)
   corners.reserve(3 * surface.size());
@@ -161,35 +139,43 @@ void CheckVertices(const std::vector<Corners>& surface, MaterialCheck& check, Di
       pieces.Unite(t, fans.Find(3 * t + c) / 3);
     }
   }
-  for (Index t = 0; t < Index(surface.size()); ++t)
-  {
-    check.Components += pieces.Find(t) == t ? 1 : 0;
-  }
+  return pieces;
 }
 
-/// Volume enclosed by outward triangles, about a point near them: far from the origin digits would cancel.
-double EnclosedVolume(const std::vector<Corners>& surface, const std::vector<Vec3>& points)
+/// Components, and the volume that outward triangles enclose, together and by component. The volumes are about a point
+/// near the surface: far from the origin digits would cancel.
+void CheckVolumes(
+  const std::vector<Corners>& surface, const std::vector<Vec3>& points, DisjointSets& pieces, MaterialCheck& check)
 {
-  if (surface.empty())
-  {
-    return 0.0;
-  }
-  const Vec3 origin = points[surface[0][0]];
   double sixfold = 0.0;
-  for (const Corners& t : surface)
+  std::vector<double> sixfoldOfPieces(surface.size(), 0.0);
+  for (std::size_t t = 0; t < surface.size(); ++t)
   {
-    sixfold += (points[t[0]] - origin).dot((points[t[1]] - origin).cross(points[t[2]] - origin));
+    const Vec3& origin = points[surface[0][0]];
+    const Corners& corners = surface[t];
+    const double part =
+      (points[corners[0]] - origin).dot((points[corners[1]] - origin).cross(points[corners[2]] - origin));
+    sixfold += part;
+    sixfoldOfPieces[pieces.Find(Index(t))] += part;
   }
-  return sixfold / 6.0;
+  for (std::size_t t = 0; t < surface.size(); ++t)
+  {
+    if (pieces.Find(Index(t)) == Index(t))
+    {
+      ++check.Components;
+      ++(sixfoldOfPieces[t] < 0.0 ? check.InnerShells : check.OuterShells);
+    }
+  }
+  check.Volume = sixfold / 6.0;
 }
 
 void CheckSurface(const std::vector<Corners>& surface, const std::vector<Vec3>& points, MaterialCheck& check)
 {
   DisjointSets fans(3 * Index(surface.size()));
   const Index edges = CheckEdges(SortedEdges(surface), check, fans);
-  CheckVertices(surface, check, fans);
+  DisjointSets pieces = CheckVertices(surface, check, fans);
+  CheckVolumes(surface, points, pieces, check);
   check.Euler = check.Vertices - edges + Index(surface.size());
-  check.Volume = EnclosedVolume(surface, points);
 }
 
 void RequireIndices(const std::vector<InterfaceTriangle>& triangles, Index points, int materials)
@@ -247,6 +233,31 @@ bool IsWrong(const InterfaceTriangle& triangle, const std::vector<MaterialSet>& 
     [&](Index v) { return !sets[v].Contains(triangle.Materials[0]) || !sets[v].Contains(triangle.Materials[1]); });
 }
 
+void CheckIntersections(
+  const std::vector<Vec3>& points, const std::vector<InterfaceTriangle>& triangles, MeshCheck& check)
+{
+  std::vector<Corners> corners;
+  corners.reserve(triangles.size());
+  for (const InterfaceTriangle& t : triangles)
+  {
+    corners.push_back(t.Vertices);
+  }
+  const SelfIntersections found = FindSelfIntersections(points, corners);
+  check.SelfIntersectingPairs = Index(found.Pairs.size());
+  std::vector<bool> intersects(triangles.size(), false);
+  for (const std::array<Index, 2>& pair : found.Pairs)
+  {
+    intersects[pair[0]] = intersects[pair[1]] = true;
+    const std::array<MaterialId, 2>&a = triangles[pair[0]].Materials, &b = triangles[pair[1]].Materials;
+    for (const MaterialId m : a)
+    {
+      check.Materials[m].SelfIntersections += m == b[0] || m == b[1] ? 1 : 0;
+    }
+  }
+  check.SelfIntersectingTriangles = Index(std::count(intersects.begin(), intersects.end(), true));
+  check.FirstIntersecting = found.Pairs.empty() ? -1 : found.Pairs[0][0];
+}
+
 /// Ratios and areas of all, of each material and of each pair.
 void MeasureQuality(const std::vector<Vec3>& points, const std::vector<InterfaceTriangle>& triangles, MeshCheck& check)
 {
@@ -261,12 +272,12 @@ void MeasureQuality(const std::vector<Vec3>& points, const std::vector<Interface
     const Vec3 &a = points[triangles[t].Vertices[0]], &b = points[triangles[t].Vertices[1]],
                &c = points[triangles[t].Vertices[2]];
     measures.push_back({ RadiusRatio(a, b, c), 0.5 * (b - a).cross(c - a).norm() });
-    all.Add(measures[t][0], measures[t][1]);
+    all.Add(measures[t][0], measures[t][1], Index(t));
     check.DegenerateTriangles += measures[t][0] < DegenerateRatio ? 1 : 0;
     std::array<MaterialId, 2> pair = triangles[t].Materials;
     std::sort(pair.begin(), pair.end());
-    materials[pair[0]].Add(measures[t][0], measures[t][1]);
-    materials[pair[1]].Add(measures[t][0], measures[t][1]);
+    materials[pair[0]].Add(measures[t][0], measures[t][1], Index(t));
+    materials[pair[1]].Add(measures[t][0], measures[t][1], Index(t));
     order.emplace_back(pair, t);
   }
   check.Quality = all.Result();
@@ -280,7 +291,7 @@ void MeasureQuality(const std::vector<Vec3>& points, const std::vector<Interface
     QualitySum sum;
     for (last = first; last < order.size() && order[last].first == order[first].first; ++last)
     {
-      sum.Add(measures[order[last].second][0], measures[order[last].second][1]);
+      sum.Add(measures[order[last].second][0], measures[order[last].second][1], Index(order[last].second));
     }
     check.Pairs.push_back({ order[first].first, sum.Result() });
   }
@@ -289,6 +300,22 @@ void MeasureQuality(const std::vector<Vec3>& points, const std::vector<Interface
     const auto at = measures.begin() + std::ptrdiff_t(measures.size() / 100);
     std::nth_element(measures.begin(), at, measures.end());
     check.FirstPercentileRatio = (*at)[0];
+  }
+}
+
+/// Names triangles by their numbers among all instead of among the proper ones.
+void Renumber(const std::vector<Index>& numbers, MeshCheck& check)
+{
+  const auto renumber = [&numbers](Index& triangle) { triangle = triangle < 0 ? triangle : numbers[triangle]; };
+  renumber(check.Quality.Worst);
+  renumber(check.FirstIntersecting);
+  for (MaterialCheck& material : check.Materials)
+  {
+    renumber(material.Quality.Worst);
+  }
+  for (PairCheck& pair : check.Pairs)
+  {
+    renumber(pair.Quality.Worst);
   }
 }
 }
@@ -300,20 +327,25 @@ MeshCheck CheckMesh(const std::vector<Vec3>& points, const std::vector<Interface
   MeshCheck check;
   check.Materials.resize(static_cast<std::size_t>(numberOfMaterials));
   std::vector<InterfaceTriangle> proper;
+  std::vector<Index> numbers; // of the proper ones
   proper.reserve(triangles.size());
-  for (const InterfaceTriangle& t : triangles)
+  numbers.reserve(triangles.size());
+  for (std::size_t n = 0; n < triangles.size(); ++n)
   {
+    const InterfaceTriangle& t = triangles[n];
     if (t.Materials[0] == t.Materials[1])
     {
       ++check.SameMaterialTriangles;
       continue;
     }
     proper.push_back(t);
+    numbers.push_back(Index(n));
     check.WrongFaces += !sets.empty() && IsWrong(t, sets) ? 1 : 0;
   }
   check.DuplicateTriangles = CountDuplicates(proper);
   check.Vertices = CountVertices(proper, points.size());
   MeasureQuality(points, proper, check);
+  CheckIntersections(points, proper, check);
 
   std::vector<std::vector<Corners>> surfaces(check.Materials.size());
   for (const InterfaceTriangle& t : proper)
@@ -330,6 +362,7 @@ MeshCheck CheckMesh(const std::vector<Vec3>& points, const std::vector<Interface
         CheckSurface(surfaces[m], points, check.Materials[m]);
       }
     });
+  Renumber(numbers, check);
   return check;
 }
 }

@@ -16,6 +16,7 @@ struct TriangleQuality
   double MinRadiusRatio = 1.0;
   double MeanRadiusRatio = 1.0;
   double Area = 0.0; ///< world length squared
+  Index Worst = -1;  ///< the first triangle with the least ratio; -1 when there are none
 };
 
 /// The surface of one material: all triangles with the material on one side, seen from it.
@@ -29,11 +30,20 @@ struct MaterialCheck
   Index NonManifoldVertices = 0; ///< whose triangles form more than one fan across edges of two
   Index Components = 0;          ///< pieces of triangles that share vertices
   Index Euler = 0;               ///< vertices - edges + triangles
+  Index OuterShells = 0;         ///< components that enclose a positive volume: one per part of the material...
+  Index InnerShells = 0;         ///< ... and those that enclose a negative one: around its cavities
+  Index SelfIntersections = 0;   ///< pairs of the surface's triangles that intersect
   double Volume = 0.0;           ///< by the divergence theorem; means something where Closed and Oriented
 
+  /// Handles, of all components together; means something where Closed and Manifold.
+  Index Genus() const { return this->Components - this->Euler / 2; }
   bool Closed() const { return this->OpenEdges == 0; }
   bool EdgeManifold() const { return this->OpenEdges == 0 && this->NonManifoldEdges == 0; }
+  bool VertexManifold() const { return this->NonManifoldVertices == 0; }
+  bool Manifold() const { return this->EdgeManifold() && this->VertexManifold(); }
   bool Oriented() const { return this->MisorientedEdges == 0; }
+  /// Closed, manifold, oriented and without self-intersection.
+  bool Sound() const { return this->Manifold() && this->Oriented() && this->SelfIntersections == 0; }
 };
 
 /// The triangles between two materials.
@@ -53,6 +63,9 @@ struct MeshCheck
   Index DuplicateTriangles = 0;         ///< more triangles on the same three vertices than one
   Index DegenerateTriangles = 0;        ///< a vertex twice, or a ratio below 1e-10
   Index SameMaterialTriangles = 0;      ///< with one material on both sides; left out of everything else
+  Index SelfIntersectingPairs = 0;      ///< of triangles; see FindSelfIntersections
+  Index SelfIntersectingTriangles = 0;  ///< that are in such a pair
+  Index FirstIntersecting = -1;         ///< the first of them
   Index WrongFaces = 0; ///< whose two materials are not in the sets of all their vertices; 0 without sets
 };
 

@@ -130,6 +130,76 @@ TEST(MeshChecks, Cube)
   EXPECT_EQ(check.DuplicateTriangles + check.DegenerateTriangles + check.SameMaterialTriangles + check.WrongFaces, 0);
 }
 
+TEST(MeshChecks, PartsCavitiesAndHandles)
+{
+  // A hollow box, with a block inside the hollow, and a box apart.
+  Mesh mesh;
+  mesh.Box(Vec3::Zero(), Vec3::Constant(5), 1);
+  Mesh hollow;
+  hollow.Box(Vec3::Constant(1), Vec3::Constant(4), 1);
+  for (const InterfaceTriangle& t : hollow.Triangles)
+  {
+    mesh.Triangle(hollow.Points[t.Vertices[0]], hollow.Points[t.Vertices[2]], hollow.Points[t.Vertices[1]], 1, 0);
+  }
+  mesh.Box(Vec3::Constant(2), Vec3::Constant(3), 1);
+  mesh.Box(Vec3(7, 0, 0), Vec3(8, 1, 1), 1);
+  const MeshCheck check = mesh.Check(2);
+  EXPECT_EQ(check.Materials[1].Components, 4);
+  EXPECT_EQ(check.Materials[1].OuterShells, 3);
+  EXPECT_EQ(check.Materials[1].InnerShells, 1);
+  EXPECT_EQ(check.Materials[0].OuterShells, 1) << "the pocket of background";
+  EXPECT_EQ(check.Materials[0].InnerShells, 3);
+  EXPECT_EQ(check.Materials[1].Genus(), 0);
+  EXPECT_TRUE(check.Materials[1].Sound());
+  EXPECT_DOUBLE_EQ(check.Materials[1].Volume, 125 - 27 + 1 + 1);
+
+  // A frame of four bars: one handle. Its quads are the sides of the bars that show.
+  Mesh frame;
+  const auto filled = [](int i, int j) { return i >= 0 && i < 3 && j >= 0 && j < 3 && (i != 1 || j != 1); };
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      const Vec3 low(i, j, 0), high(i + 1, j + 1, 1);
+      for (int side = 0; filled(i, j) && side < 6; ++side)
+      {
+        const int step = side % 2 ? 1 : -1;
+        if (side >= 4 || !filled(i + (side < 2 ? step : 0), j + (side < 2 ? 0 : step)))
+        {
+          frame.Face(low, high, side / 2, side % 2 == 1, 1, 0);
+        }
+      }
+    }
+  }
+  const MaterialCheck ring = frame.Check(2).Materials[1];
+  EXPECT_TRUE(ring.Sound());
+  EXPECT_EQ(ring.Euler, 0);
+  EXPECT_EQ(ring.Genus(), 1);
+}
+
+TEST(MeshChecks, SelfIntersectionsAndTheWorstTriangle)
+{
+  Mesh mesh = UnitCube();
+  mesh.Triangles.insert(mesh.Triangles.begin(), InterfaceTriangle{ { 0, 1, 2 }, { 1, 1 } }); // left out of everything
+  const MeshCheck clean = mesh.Check(3);
+  EXPECT_EQ(clean.SelfIntersectingPairs, 0);
+  EXPECT_EQ(clean.FirstIntersecting, -1);
+  EXPECT_EQ(clean.Quality.Worst, 1);
+  EXPECT_TRUE(clean.Materials[1].Sound());
+  EXPECT_EQ(clean.Materials[2].Quality.Worst, -1);
+
+  mesh.Tetrahedron(Vec3(0.5, 0.6, 0.5), Vec3(3, 0, 0), Vec3(3, 1, 0), Vec3(3, 0, 0.01), 2);
+  const MeshCheck check = mesh.Check(3);
+  EXPECT_GT(check.SelfIntersectingPairs, 0);
+  EXPECT_EQ(check.Materials[1].SelfIntersections, 0) << "each of the two materials is whole by itself";
+  EXPECT_EQ(check.Materials[2].SelfIntersections, 0);
+  EXPECT_EQ(check.Materials[0].SelfIntersections, check.SelfIntersectingPairs) << "but not what is around them";
+  EXPECT_FALSE(check.Materials[0].Sound());
+  EXPECT_GT(check.FirstIntersecting, 0);
+  EXPECT_EQ(check.Quality.Worst, check.Materials[2].Quality.Worst);
+  EXPECT_GE(check.Quality.Worst, 13);
+}
+
 TEST(MeshChecks, VolumeAndAreaOfASphereConverge)
 {
   double lastError = 1.0;
