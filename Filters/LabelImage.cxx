@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -177,52 +176,5 @@ void MergeIntoBackground(LabelImage& image, const std::vector<Label>& kept, Labe
     id = renumbered[id];
   }
   image.Labels = merged;
-}
-
-LabelCounts CountLabels(const LabelImage& image, Label background)
-{
-  LabelCounts counts;
-  counts.Voxels.assign(image.Labels.size(), 0);
-  const Lattice lattice = image.Frame.Samples();
-  const std::array<int, 3>& dims = lattice.Dims;
-  const std::array<Index, 3> step = { 1, dims[0], Index(dims[0]) * dims[1] };
-  std::map<std::array<Label, 2>, Index> faces;
-  const auto contact = [&faces](Label a, Label b)
-  {
-    if (a != b)
-    {
-      ++faces[{ std::min(a, b), std::max(a, b) }];
-    }
-  };
-  std::array<Index, 3> i;
-  for (i[2] = 0; i[2] < dims[2]; ++i[2])
-  {
-    for (i[1] = 0; i[1] < dims[1]; ++i[1])
-    {
-      for (i[0] = 0; i[0] < dims[0]; ++i[0])
-      {
-        const Index at = lattice.At(i[0], i[1], i[2]);
-        const MaterialId id = image.Ids[at];
-        ++counts.Voxels[id];
-        for (int a = 0; a < 3; ++a)
-        {
-          const bool border = i[a] + 1 == dims[a];
-          if (i[a] == 0)
-          {
-            contact(image.Labels[id], background);
-          }
-          if (border || image.Ids[at + step[a]] != id)
-          {
-            contact(image.Labels[id], border ? background : image.Labels[image.Ids[at + step[a]]]);
-          }
-        }
-      }
-    }
-  }
-  for (const auto& entry : faces)
-  {
-    counts.Contacts.push_back({ entry.first, entry.second });
-  }
-  return counts;
 }
 }

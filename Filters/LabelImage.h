@@ -5,7 +5,6 @@
 
 #include "Core/GridFrame.h"
 
-#include <array>
 #include <vector>
 
 class vtkDataArray;
@@ -30,21 +29,6 @@ LabelImage ReadLabelImage(vtkImageData* image, vtkDataArray* array, bool cellDat
 
 /// Gives every label that is not in `kept` (ascending) the background's label, which may be new to the image.
 void MergeIntoBackground(LabelImage& image, const std::vector<Label>& kept, Label background);
-
-/// How many samples each label has, and how many faces of voxels lie between each two labels.
-struct LabelCounts
-{
-  struct Contact
-  {
-    std::array<Label, 2> Labels; ///< ascending
-    Index Faces = 0;
-  };
-  std::vector<Index> Voxels; ///< by id
-  std::vector<Contact> Contacts;
-};
-
-/// Space outside the image counts as background.
-LabelCounts CountLabels(const LabelImage& image, Label background);
 }
 
 #endif

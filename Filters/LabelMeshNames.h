@@ -46,8 +46,9 @@ inline constexpr char Materials[] = "Materials";                 ///< int64 x 8,
 inline constexpr char Residual[] = "Residual";                   ///< float64, world length
 inline constexpr char Normal[] = "Normal";                       ///< float64 x 3 (particles on 2-cells; else zero)
 inline constexpr char BoundaryLabels[] =
-  "BoundaryLabels";                                  ///< cells, int64 x 2: normal points from the first to the second
-inline constexpr char RadiusRatio[] = "RadiusRatio"; ///< cells, float64: 2 r_in / r_circ
+  "BoundaryLabels"; ///< cells, int64 x 2: normal points from the first to the second
+inline constexpr char DistanceToVoxels[] = "DistanceToVoxels"; ///< points, float64, world length (error map)
+inline constexpr char RadiusRatio[] = "RadiusRatio";           ///< cells, float64: 2 r_in / r_circ
 }
 
 #endif

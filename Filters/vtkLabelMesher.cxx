@@ -225,6 +225,11 @@ vtkPolyData* vtkLabelMesher::GetParticles()
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(2));
 }
 
+vtkImageData* vtkLabelMesher::GetLabelImage()
+{
+  return this->Stages->Reconstruct->GetLabelImage();
+}
+
 vtkPolyData* vtkLabelMesher::GetCurves()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(3));

@@ -30,6 +30,7 @@
 #include <memory> // for the stages
 #include <string> // for names
 
+class vtkImageData;
 class vtkPartitionedDataSetCollection;
 
 class VTKLABELMESHFILTERS_EXPORT vtkLabelMesher : public vtkPolyDataAlgorithm
@@ -178,6 +179,10 @@ public:
   vtkPolyData* GetParticles();
   vtkPolyData* GetCurves();
   ///@}
+
+  /// The label image rebuilt from the indicators, which tells vtkLabelMeshReport what smoothing has lost: port 1 of the
+  /// vtkIndicatorReconstruct inside; valid until the next update.
+  vtkImageData* GetLabelImage();
 
 protected:
   vtkLabelMesher();

@@ -127,6 +127,7 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--surfaces", text(line.Surfaces) },
     { "--particles", text(line.Particles) },
     { "--report", text(line.Report) },
+    { "--error-map", text(line.ErrorMap) },
     { "--tets",
       [](const std::string&, const std::string&)
       { Fail("--tets: this version makes surfaces only; leave the option out"); } },
@@ -205,8 +206,9 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
   RequireSuffix("--surfaces", line.Surfaces, ".vtpc");
   RequireSuffix("--particles", line.Particles, ".vtp");
   RequireSuffix("--report", line.Report, ".json");
+  RequireSuffix("--error-map", line.ErrorMap, ".vtp");
   std::set<std::string> files = { line.Input };
-  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Report })
+  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Report, line.ErrorMap })
   {
     if (!file.empty() && !files.insert(file).second)
     {
@@ -292,7 +294,8 @@ Files to write (each only when asked for, and only whole):
   -o FILE.vtp           triangles, each once, with the labels of its two sides (BoundaryLabels)
   --surfaces FILE.vtpc  a closed surface per material, and the folder FILE beside it
   --particles FILE.vtp  the particles, with the cells they lie on
-  --report FILE.json    counts, quality, volumes, losses, times
+  --report FILE.json    the certificate, counts, quality, volumes, what was lost and why, times
+  --error-map FILE.vtp  the triangles with each point's distance to the voxels' own interface (DistanceToVoxels)
 
 Which labels:
   --labels 1,2,5        mesh these, all others are background (default: all)
@@ -315,7 +318,7 @@ Particle method (radii in voxels, lengths in world units):
 Both methods:
   --triangles N         about how many triangles to make
   --threads N           threads to use (default: all)
-  --quiet               no progress
+  --quiet               no progress, no warnings, no certificate at the end
   --version, --help
 
 Exit status: 0 when every file asked for was written, else 1 and one line that says why.

@@ -23,8 +23,8 @@ struct CommandLine
   bool Help = false;
   bool Version = false;
   std::string Input;
-  std::string Mesh, Surfaces, Particles, Report; ///< files to write; empty: not asked for
-  bool Grid = false;                             ///< --method grid
+  std::string Mesh, Surfaces, Particles, Report, ErrorMap; ///< files to write; empty: not asked for
+  bool Grid = false;                                       ///< --method grid
   std::vector<long long> Labels;
   long long Background = 0;
   std::map<long long, MaterialOptions> Materials;

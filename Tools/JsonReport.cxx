@@ -11,6 +11,7 @@
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkVariant.h>
 
@@ -20,7 +21,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <optional>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -100,20 +101,57 @@ long long Count(vtkTable* table, vtkIdType row, const char* column)
   return table->GetValueByName(row, column).ToLongLong();
 }
 
+std::string Text(vtkTable* table, vtkIdType row, const char* column)
+{
+  return table->GetValueByName(row, column).ToString();
+}
+
+std::string Position(vtkDataArray* positions, vtkIdType row)
+{
+  std::vector<std::string> numbers;
+  for (int a = 0; a < 3; ++a)
+  {
+    numbers.push_back(Number(positions->GetComponent(row, a)));
+  }
+  return Array(numbers);
+}
+
+std::string Position(vtkTable* table, vtkIdType row, const char* column)
+{
+  return Position(vtkDataArray::SafeDownCast(table->GetColumnByName(column)), row);
+}
+
+std::string Worst(long long triangle, const std::string& position)
+{
+  return triangle < 0 ? "null" : Json().Integer("triangle", triangle).Add("position", position).Object();
+}
+
 std::string MaterialJson(vtkTable* table, vtkIdType row)
 {
   const auto count = [&](const char* column) { return Count(table, row, column); };
   Json json;
-  json.Integer("label", count("Label")).Text("name", table->GetValueByName(row, "Name").ToString());
+  json.Integer("label", count("Label")).Text("name", Text(table, row, "Name"));
   json.Integer("triangles", count("Triangles")).Integer("vertices", count("Vertices"));
   json.Real("min_radius_ratio", Cell(table, row, "MinRadiusRatio"));
   json.Real("mean_radius_ratio", Cell(table, row, "MeanRadiusRatio"));
-  json.Bool("closed", count("Closed") != 0);
-  json.Bool("manifold", count("EdgeManifold") != 0 && count("NonManifoldVertices") == 0);
+  json.Add("worst_triangle", Worst(count("WorstTriangle"), Position(table, row, "WorstPosition")));
+  json.Bool("certified", count("Certified") != 0).Bool("closed", count("Closed") != 0);
+  json.Bool("manifold", count("EdgeManifold") != 0 && count("VertexManifold") != 0);
+  json.Bool("edge_manifold", count("EdgeManifold") != 0).Bool("vertex_manifold", count("VertexManifold") != 0);
   json.Bool("oriented", count("Oriented") != 0);
-  json.Integer("open_edges", count("OpenEdges")).Integer("nonmanifold_edges", count("NonManifoldEdges"));
-  json.Integer("nonmanifold_vertices", count("NonManifoldVertices"));
-  json.Integer("components", count("Components")).Integer("euler", count("Euler"));
+  const std::pair<const char*, const char*> counts[] = { { "open_edges", "OpenEdges" },
+    { "nonmanifold_edges", "NonManifoldEdges" }, { "nonmanifold_vertices", "NonManifoldVertices" },
+    { "misoriented_edges", "MisorientedEdges" }, { "self_intersections", "SelfIntersections" },
+    { "components", "Components" }, { "euler", "Euler" }, { "genus", "Genus" }, { "parts", "Parts" },
+    { "cavities", "Cavities" }, { "voxels", "Voxels" }, { "voxel_components", "VoxelComponents" },
+    { "voxel_euler", "VoxelEuler" }, { "voxel_genus", "VoxelGenus" }, { "voxel_parts", "VoxelParts" },
+    { "voxel_cavities", "VoxelCavities" }, { "lost_parts", "LostParts" },
+    { "misclassified_voxels", "MisclassifiedVoxels" } };
+  for (const auto& [key, column] : counts)
+  {
+    const long long value = count(column);
+    json.Add(key, value < 0 && std::string(column) == "Genus" ? "null" : std::to_string(value));
+  }
   json.Real("area", Cell(table, row, "Area")).Real("volume", Cell(table, row, "Volume"));
   json.Real("voxel_volume", Cell(table, row, "VoxelVolume"));
   const std::pair<const char*, const char*> stages[] = { { "mask_volume", "MaskVolume" },
@@ -128,111 +166,135 @@ std::string MaterialJson(vtkTable* table, vtkIdType row)
   return json.Object();
 }
 
-/// Which labels meet at some particle, alone and two by two.
-struct Sampled
+std::string PairOf(vtkTable* table, vtkIdType row)
 {
-  std::set<long long> Labels;
-  std::set<std::pair<long long, long long>> Pairs;
-  std::array<long long, 3> CellCounts{ 0, 0, 0 };
-
-  explicit Sampled(vtkPolyData* particles)
-  {
-    vtkPointData* data = particles->GetPointData();
-    vtkDataArray* sets = data->GetArray("Materials");
-    vtkDataArray* numbers = data->GetArray("NumberOfMaterials");
-    vtkDataArray* dimensions = data->GetArray("CellDimension");
-    for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
-    {
-      ++this->CellCounts.at(static_cast<std::size_t>(dimensions->GetComponent(i, 0)));
-      const int number = static_cast<int>(numbers->GetComponent(i, 0));
-      for (int a = 0; a < number; ++a)
-      {
-        const auto label = static_cast<long long>(sets->GetComponent(i, a));
-        this->Labels.insert(label);
-        for (int b = 0; b < a; ++b)
-        {
-          this->Pairs.emplace(static_cast<long long>(sets->GetComponent(i, b)), label);
-        }
-      }
-    }
-  }
-};
-
-/// The first stage after which the label is gone.
-std::string StageOfLostLabel(vtkTable* table, vtkIdType row, const Sampled* sampled)
-{
-  if (!sampled)
-  {
-    return "GridLabelMesh";
-  }
-  if (table->GetColumnByName("MaskVolume") && !(Cell(table, row, "MaskVolume") > 0))
-  {
-    return "LabelSplit";
-  }
-  if (table->GetColumnByName("TightVolume") && !(Cell(table, row, "TightVolume") > 0))
-  {
-    return "Tighten";
-  }
-  return sampled->Labels.count(Count(table, row, "Label")) == 0 ? "ParticleSampleCells" : "DelaunayLabelMesh";
+  return Array({ std::to_string(Count(table, row, "LabelA")), std::to_string(Count(table, row, "LabelB")) });
 }
 
-std::vector<std::string> LostLabels(vtkTable* table, const ReportInput& input, const Sampled* sampled)
+std::string InterfacesJson(vtkTable* table)
 {
-  std::vector<std::string> lost;
-  std::set<long long> listed;
+  std::vector<std::string> rows;
   for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
   {
-    const long long label = Count(table, row, "Label");
-    listed.insert(label);
-    if (Count(table, row, "Lost"))
-    {
-      Json json;
-      json.Integer("label", label).Text("stage", StageOfLostLabel(table, row, sampled));
-      json.Text(
-        "what", "no triangle has this label; its voxels have a volume of " + Number(Cell(table, row, "VoxelVolume")));
-      lost.push_back(json.Object());
-    }
+    Json json;
+    json.Add("labels", PairOf(table, row)).Integer("triangles", Count(table, row, "Triangles"));
+    json.Real("area", Cell(table, row, "Area")).Real("min_radius_ratio", Cell(table, row, "MinRadiusRatio"));
+    json.Real("mean_radius_ratio", Cell(table, row, "MeanRadiusRatio"));
+    json.Integer("voxel_faces", Count(table, row, "VoxelFaces"));
+    rows.push_back("\n  " + json.Object());
+  }
+  return Array(rows, ",");
+}
+
+/// Something that was lost, as the report's table has it.
+struct LossEntry
+{
+  std::string Kind; ///< label, parts or pair
+  std::string Labels;
+  std::string Stage, What, Advice;
+  long long Parts = 0, Voxels = 0;
+  std::string Position;
+};
+
+std::vector<LossEntry> LossesOf(const ReportInput& input, vtkLabelMeshReport* report)
+{
+  std::vector<LossEntry> losses;
+  // Labels without a mask are none of the mesh's: the report takes their voxels for background.
+  std::set<long long> listed;
+  for (vtkIdType row = 0; row < report->GetOutput(0)->GetNumberOfRows(); ++row)
+  {
+    listed.insert(Count(report->GetOutput(0), row, "Label"));
   }
   for (const long long label : input.Labels)
   {
     if (listed.count(label) == 0)
     {
-      lost.push_back(
-        Json().Integer("label", label).Text("stage", "LabelSplit").Text("what", "no mask was made").Object());
+      const std::string name = std::to_string(label);
+      losses.push_back({ "label", name, "LabelSplit", "label " + name + " has no mask",
+        "open less (--material " + name + ":opening=R)", 0, 0, "" });
     }
   }
-  return lost;
-}
-
-std::vector<std::string> LostPairs(vtkTable* table, const Sampled* sampled)
-{
-  std::vector<std::string> lost;
+  vtkTable* table = report->GetOutput(2);
   for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
   {
-    if (!Count(table, row, "Lost"))
-    {
-      continue;
-    }
-    const long long a = Count(table, row, "LabelA"), b = Count(table, row, "LabelB");
-    // Particles see every contact that smoothing has left.
-    const bool seen = sampled && sampled->Pairs.count(std::minmax(a, b)) > 0;
-    Json json;
-    json.Add("labels", "[" + std::to_string(a) + ", " + std::to_string(b) + "]");
-    json.Text("stage", !sampled ? "GridLabelMesh" : seen ? "DelaunayLabelMesh" : "Tighten");
-    json.Text("what",
-      "the two labels touch in " + std::to_string(Count(table, row, "VoxelFaces")) +
-        " faces of voxels, but no triangle lies between them");
-    lost.push_back(json.Object());
+    LossEntry entry;
+    entry.Kind = Text(table, row, "Kind");
+    entry.Labels = entry.Kind == "pair" ? PairOf(table, row) : std::to_string(Count(table, row, "LabelA"));
+    entry.Stage = input.Particles ? Text(table, row, "Stage") : "GridLabelMesh";
+    entry.What = Text(table, row, "What");
+    entry.Advice = Text(table, row, "Advice");
+    entry.Parts = Count(table, row, "Parts");
+    entry.Voxels = Count(table, row, "Voxels");
+    entry.Position = Position(table, row, "Position");
+    losses.push_back(entry);
   }
-  return lost;
+  return losses;
 }
 
-std::string CellsJson(const Sampled& sampled)
+std::string LostJson(const std::vector<LossEntry>& losses)
 {
+  std::vector<std::string> rows;
+  for (const LossEntry& loss : losses)
+  {
+    Json json;
+    json.Add(loss.Kind == "pair" ? "labels" : "label", loss.Labels).Text("stage", loss.Stage);
+    json.Text("what", loss.What).Text("advice", loss.Advice);
+    if (loss.Parts > 0)
+    {
+      json.Integer("parts", loss.Parts).Integer("voxels", loss.Voxels).Add("position", loss.Position);
+    }
+    rows.push_back("\n  " + json.Object());
+  }
+  return Array(rows, ",");
+}
+
+/// How many labels, parts and pairs were lost, and the first labels by name.
+std::string Summary(const std::vector<LossEntry>& losses)
+{
+  constexpr int most = 5; // labels that are named
+  long long labels = 0, parts = 0, pairs = 0;
+  std::string names;
+  for (const LossEntry& loss : losses)
+  {
+    if (loss.Kind == "label")
+    {
+      ++labels;
+      names += labels > most ? "" : (names.empty() ? "" : ", ") + loss.Labels;
+    }
+    parts += loss.Kind == "parts" ? loss.Parts : 0;
+    pairs += loss.Kind == "pair" ? 1 : 0;
+  }
+  std::vector<std::string> words;
+  const auto add = [&words](long long count, const std::string& one, const std::string& more)
+  {
+    if (count > 0)
+    {
+      words.push_back(std::to_string(count) + " " + (count == 1 ? one : more));
+    }
+  };
+  add(labels, "label (" + names + ")", "labels (" + names + (labels > most ? ", ..." : "") + ")");
+  add(parts, "part of a label", "parts of labels");
+  add(pairs, "pair of labels that touched", "pairs of labels that touched");
+  std::string text;
+  for (std::size_t n = 0; n < words.size(); ++n)
+  {
+    text += (n == 0 ? "" : n + 1 == words.size() ? " and " : ", ") + words[n];
+  }
+  return text;
+}
+
+std::string CellsJson(vtkPolyData* particles)
+{
+  std::array<long long, 3> counts{ 0, 0, 0 };
+  vtkDataArray* dimensions = particles->GetPointData()->GetArray("CellDimension");
+  for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
+  {
+    ++counts.at(static_cast<std::size_t>(dimensions->GetComponent(i, 0)));
+  }
   Json json;
   for (int d = 0; d < 3; ++d)
   {
-    json.Integer(std::to_string(d), sampled.CellCounts[d]);
+    json.Integer(std::to_string(d), counts[d]);
   }
   return json.Object();
 }
@@ -240,6 +302,11 @@ std::string CellsJson(const Sampled& sampled)
 double FieldValue(vtkTable* table, const char* name)
 {
   return table->GetFieldData()->GetArray(name)->GetComponent(0, 0);
+}
+
+std::string CertificateOf(vtkTable* table)
+{
+  return vtkStringArray::SafeDownCast(table->GetFieldData()->GetAbstractArray("Certificate"))->GetValue(0);
 }
 
 void AddHead(const ReportInput& input, vtkTable* totals, Json& json)
@@ -251,13 +318,19 @@ void AddHead(const ReportInput& input, vtkTable* totals, Json& json)
   json.Add("dimensions", Array({ std::to_string(dims[0]), std::to_string(dims[1]), std::to_string(dims[2]) }));
   json.Add("spacing", Array({ Number(spacing[0]), Number(spacing[1]), Number(spacing[2]) }));
   json.Text("method", input.Method);
-  json.Integer("points", static_cast<long long>(FieldValue(totals, "Points")));
-  json.Integer("triangles", static_cast<long long>(FieldValue(totals, "Triangles")));
+  const auto count = [&](const char* name) { return static_cast<long long>(FieldValue(totals, name)); };
+  json.Bool("certified", count("Certified") != 0).Text("certificate", CertificateOf(totals));
+  json.Integer("points", count("Points")).Integer("triangles", count("Triangles"));
   json.Real("min_radius_ratio", FieldValue(totals, "MinRadiusRatio"));
   json.Real("p1_radius_ratio", FieldValue(totals, "FirstPercentileRadiusRatio"));
   json.Real("mean_radius_ratio", FieldValue(totals, "MeanRadiusRatio"));
-  json.Integer("duplicate_triangles", static_cast<long long>(FieldValue(totals, "DuplicateTriangles")));
-  json.Integer("wrong_faces", static_cast<long long>(FieldValue(totals, "WrongFaces")));
+  json.Add(
+    "worst_triangle", Worst(count("WorstTriangle"), Position(totals->GetFieldData()->GetArray("WorstPosition"), 0)));
+  json.Integer("duplicate_triangles", count("DuplicateTriangles"));
+  json.Integer("degenerate_triangles", count("DegenerateTriangles")).Integer("wrong_faces", count("WrongFaces"));
+  json.Integer("self_intersecting_pairs", count("SelfIntersectingPairs"));
+  json.Integer("self_intersecting_triangles", count("SelfIntersectingTriangles"));
+  json.Integer("misclassified_voxels", count("MisclassifiedVoxels"));
 }
 
 void AddTail(const ReportInput& input, Json& json)
@@ -275,19 +348,46 @@ void AddTail(const ReportInput& input, Json& json)
 }
 }
 
-std::string JsonReport(const ReportInput& input)
+vtkSmartPointer<vtkLabelMeshReport> CheckMesh(const ReportInput& input)
 {
-  vtkNew<vtkLabelMeshReport> report;
+  auto report = vtkSmartPointer<vtkLabelMeshReport>::New();
   Messages messages(report);
   report->SetInputData(0, input.Mesh);
   report->SetInputData(1, input.Volume);
   report->SetInputArrayToProcess(0, 1, 0, input.LabelAssociation, input.LabelArray.c_str());
   report->SetInputData(2, input.Surfaces);
+  if (input.Particles)
+  {
+    report->SetInputData(3, input.Tightened);
+    report->SetInputData(4, input.Particles);
+  }
+  report->SetErrorMap(input.ErrorMap ? 1 : 0);
   report->Update();
   if (!messages.FirstError().empty())
   {
     throw std::runtime_error("the mesh cannot be checked: " + messages.FirstError());
   }
+  return report;
+}
+
+std::vector<std::string> Verdict(const ReportInput& input, vtkLabelMeshReport* report)
+{
+  std::vector<std::string> sentences{ CertificateOf(report->GetOutput(0)) };
+  std::map<std::string, std::vector<LossEntry>> byStage;
+  for (const LossEntry& loss : LossesOf(input, report))
+  {
+    byStage[loss.Stage].push_back(loss);
+  }
+  for (const auto& [stage, losses] : byStage)
+  {
+    sentences.push_back("lost by " + stage + ": " + (losses.size() == 1 ? losses[0].What : Summary(losses)) +
+      "; to keep more, " + losses[0].Advice);
+  }
+  return sentences;
+}
+
+std::string JsonReport(const ReportInput& input, vtkLabelMeshReport* report)
+{
   vtkTable* materials = report->GetOutput(0);
   const long long background =
     static_cast<long long>(input.Mesh->GetFieldData()->GetArray("BackgroundLabel")->GetComponent(0, 0));
@@ -306,16 +406,12 @@ std::string JsonReport(const ReportInput& input)
     }
   }
   json.Add("materials", Array(rows, ","));
-  std::optional<Sampled> sampled;
+  json.Add("interfaces", InterfacesJson(report->GetOutput(1)));
   if (input.Particles)
   {
-    sampled.emplace(input.Particles);
-    json.Add("cells", CellsJson(*sampled));
+    json.Add("cells", CellsJson(input.Particles));
   }
-  std::vector<std::string> lost = LostLabels(materials, input, sampled ? &*sampled : nullptr);
-  const std::vector<std::string> pairs = LostPairs(report->GetOutput(1), sampled ? &*sampled : nullptr);
-  lost.insert(lost.end(), pairs.begin(), pairs.end());
-  json.Add("lost", Array(lost));
+  json.Add("lost", LostJson(LossesOf(input, report)));
   AddTail(input, json);
   return json.Object() + "\n";
 }

@@ -12,6 +12,7 @@
 #include <vtkDataObject.h>
 #include <vtkGridLabelMesh.h>
 #include <vtkImageData.h>
+#include <vtkLabelMeshReport.h>
 #include <vtkLabelMesher.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
@@ -314,11 +315,33 @@ int UseThreads(int asked)
   return vtkSMPTools::GetEstimatedNumberOfThreads();
 }
 
+/// Checks the mesh, when anybody wants to know, and writes what was asked for; returns the last words for the user.
+std::vector<std::string> Report(const CommandLine& line, ReportInput& input, OutputFiles& files)
+{
+  if (line.Quiet && line.Report.empty() && line.ErrorMap.empty())
+  {
+    return {};
+  }
+  const double begin = Now();
+  input.ErrorMap = !line.ErrorMap.empty();
+  const vtkSmartPointer<vtkLabelMeshReport> report = CheckMesh(input);
+  input.Seconds.emplace_back("Report", Now() - begin);
+  if (!line.ErrorMap.empty())
+  {
+    files.WriteMesh(line.ErrorMap, report->GetErrorMapOutput());
+  }
+  if (!line.Report.empty())
+  {
+    files.WriteText(line.Report, JsonReport(input, report));
+  }
+  return line.Quiet ? std::vector<std::string>() : Verdict(input, report);
+}
+
 void MeshVolume(const CommandLine& line)
 {
   const double start = Now();
   OutputFiles files;
-  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Report })
+  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Report, line.ErrorMap })
   {
     if (!file.empty())
     {
@@ -363,6 +386,7 @@ void MeshVolume(const CommandLine& line)
       report.Seconds.emplace_back(mesher->GetStageName(s), mesher->GetStageSeconds(mesher->GetStageName(s)));
     }
     report.Particles = mesher->GetParticles();
+    report.Tightened = mesher->GetLabelImage();
   }
   report.Mesh = line.Grid ? grid->GetOutput() : mesher->GetOutput();
   report.Surfaces = line.Grid ? grid->GetSurfaces() : mesher->GetSurfaces();
@@ -381,21 +405,22 @@ void MeshVolume(const CommandLine& line)
     files.WriteMesh(line.Particles, report.Particles);
   }
   report.Seconds.emplace_back("Write", Now() - writing);
-  if (!line.Report.empty())
-  {
-    report.Seconds.emplace_back("total", Now() - start);
-    report.Input = line.Input;
-    report.Method = line.Grid ? "grid" : "particle";
-    report.Volume = volume;
-    report.LabelAssociation = labels.Association;
-    report.LabelArray = labels.Array->GetName();
-    files.WriteText(line.Report, JsonReport(report));
-  }
+  report.Seconds.emplace_back("total", Now() - start);
+  report.Input = line.Input;
+  report.Method = line.Grid ? "grid" : "particle";
+  report.Volume = volume;
+  report.LabelAssociation = labels.Association;
+  report.LabelArray = labels.Array->GetName();
+  const std::vector<std::string> verdict = Report(line, report, files);
   if (StopRequested)
   {
     Fail("stopped; nothing was written");
   }
   files.Commit();
+  for (const std::string& sentence : verdict)
+  {
+    std::cerr << "labelmesh: " << sentence << "\n";
+  }
 }
 }
 

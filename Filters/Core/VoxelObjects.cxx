@@ -35,13 +35,12 @@ public:
       this->AddRow(row);
       this->RowStarts.push_back(Index(this->Runs.size()));
       const Index y = row % this->Dims[1], z = row / this->Dims[1];
-      if (y > 0)
+      for (Index dz = z > 0 ? -1 : 0; dz <= 0; ++dz)
       {
-        this->UniteRows(row - 1, row);
-      }
-      if (z > 0)
-      {
-        this->UniteRows(row - this->Dims[1], row);
+        for (Index dy = y > 0 ? -1 : 0; dy <= (dz == 0 ? -1 : y + 1 < this->Dims[1] ? 1 : 0); ++dy)
+        {
+          this->UniteRows(row + dy + dz * this->Dims[1], row);
+        }
       }
     }
     this->NumberParts(result);
@@ -69,19 +68,31 @@ private:
     }
   }
 
+  /// Unites runs that overlap along x, or meet there at an edge or a corner.
   void UniteRows(Index a, Index b)
   {
     const Index shift = (b - a) * this->Dims[0];
-    for (Index i = this->RowStarts[a], j = this->RowStarts[b];
-         i < this->RowStarts[a + 1] && j < this->RowStarts[b + 1];)
+    const Index endOfA = this->RowStarts[a + 1], endOfB = this->RowStarts[b + 1];
+    for (Index i = this->RowStarts[a], j = this->RowStarts[b]; i < endOfA && j < endOfB;)
     {
-      const VoxelRun &lower = this->Runs[i], &upper = this->Runs[j];
-      if (this->Voxels[lower.First] == this->Voxels[upper.First] && lower.First + shift < upper.Last &&
-        upper.First < lower.Last + shift)
+      const Index lower = this->Runs[i].Last + shift, upper = this->Runs[j].Last;
+      this->UniteIfSame(i, j);
+      if (lower == upper && i + 1 < endOfA && j + 1 < endOfB)
       {
-        this->Sets.Unite(lower.Part, upper.Part);
+        // Four runs meet at one corner.
+        this->UniteIfSame(i + 1, j);
+        this->UniteIfSame(i, j + 1);
       }
-      (lower.Last + shift < upper.Last ? i : j) += 1;
+      i += lower <= upper ? 1 : 0;
+      j += upper <= lower ? 1 : 0;
+    }
+  }
+
+  void UniteIfSame(Index a, Index b)
+  {
+    if (this->Voxels[this->Runs[a].First] == this->Voxels[this->Runs[b].First])
+    {
+      this->Sets.Unite(this->Runs[a].Part, this->Runs[b].Part);
     }
   }
 
@@ -116,31 +127,37 @@ private:
   std::vector<Index> RowStarts;
 };
 
-/// What a block of 2 x 2 x 2 voxels adds to eight times the Euler number of the solid, by the set of its voxels that
-/// belong to the label: voxels are shared by eight blocks, pairs with a common face by four, squares of four by two.
+/// What the 2 x 2 x 2 voxels around a corner of the grid add to eight times the Euler number of a label's solid, by the
+/// set of them that belong to it: the corner, six edges of which two blocks have a half each, twelve faces that four
+/// share, eight voxels that eight share. A corner, edge or face is there when any voxel at it is.
 std::array<int, 256> EulerOfBlocks()
 {
   std::array<int, 256> table{};
   for (int mask = 0; mask < 256; ++mask)
   {
-    const auto all = [mask](int corners) { return (mask & corners) == corners ? 1 : 0; };
-    int eightfold = -8 * all(255);
-    for (int corner = 0; corner < 8; ++corner)
+    const auto any = [mask](auto&& chosen)
     {
-      eightfold += all(1 << corner);
-      for (int a = 0; a < 3; ++a)
+      int voxels = 0;
+      for (int n = 0; n < 8; ++n)
       {
-        const int next = corner | 1 << a, b = (a + 1) % 3;
-        if (next != corner)
-        {
-          eightfold -= 2 * all(1 << corner | 1 << next);
-          const int across = 1 << b;
-          if (!(corner & across))
-          {
-            eightfold += 4 * all(1 << corner | 1 << next | 1 << (corner | across) | 1 << (next | across));
-          }
-        }
+        voxels |= chosen(n) ? 1 << n : 0;
       }
+      return (mask & voxels) != 0 ? 1 : 0;
+    };
+    int eightfold = 8 * any([](int) { return true; });
+    for (int a = 0; a < 3; ++a)
+    {
+      const int b = (a + 1) % 3;
+      for (int side = 0; side < 4; ++side)
+      {
+        const auto at = [](int n, int axis) { return n >> axis & 1; };
+        eightfold -= side < 2 ? 4 * any([&](int n) { return at(n, a) == side; }) : 0;
+        eightfold += 2 * any([&](int n) { return at(n, a) == (side & 1) && at(n, b) == side >> 1; });
+      }
+    }
+    for (int n = 0; n < 8; ++n)
+    {
+      eightfold -= mask >> n & 1;
     }
     table[mask] = eightfold;
   }
@@ -148,7 +165,8 @@ std::array<int, 256> EulerOfBlocks()
 }
 
 /// Walks through the volume with a layer of background around it, slice by slice. Each face between two labels has two
-/// sides, one of each label's surface; around each edge of the grid the sides of a label's adjacent voxels go together.
+/// sides, one of each label's surface; around each edge of the grid the sides go together that other labels' adjacent
+/// voxels lie between.
 class SurfaceScan
 {
 public:
@@ -270,46 +288,42 @@ private:
     ++*this->LastCount;
   }
 
-  /// Face n lies between voxel n and the next. The voxels 1 and 2 are the upper ones of the faces 0 and 1, and of 3 and
-  /// 2 likewise: voxel n + 1 is the upper one of face n where n < 2.
+  /// Face n lies between voxel n and the next, which is the upper one where n < 2.
   void JoinSides(const std::array<MaterialId, 4>& ring, const std::array<Index, 4>& faces)
   {
-    for (int start = 0; start < 4; ++start)
+    for (int entry = 0; entry < 4; ++entry)
     {
-      const int entry = (start + 3) % 4;
-      if (ring[entry] == ring[start])
+      int exit = (entry + 1) % 4;
+      if (ring[exit] == ring[entry])
       {
         continue;
       }
-      int exit = start;
-      while (ring[exit] == ring[(exit + 1) % 4])
+      while (ring[(exit + 1) % 4] != ring[entry])
       {
         exit = (exit + 1) % 4;
       }
-      this->Sides.Unite(2 * faces[entry] + (entry < 2 ? 0 : 1), 2 * faces[exit] + (exit < 2 ? 1 : 0));
+      this->Sides.Unite(2 * faces[entry] + (entry < 2 ? 1 : 0), 2 * faces[exit] + (exit < 2 ? 0 : 1));
     }
   }
 
-  /// Where six voxels of a label ring the corner of the grid between two others, its surface runs through their ring,
-  /// from the one to the other: voxels that touch at a corner do not stop it.
+  /// Where two voxels of a label meet at a corner of the grid, and none of the six others there is of the label, its
+  /// surface runs from the one to the other.
   void JoinAcrossCorner(const std::array<MaterialId, 8>& block, int first, Index at)
   {
-    const MaterialId ring = block[first ^ 1];
-    Index sides[2];
+    const int last = 7 - first;
     for (int n = 0; n < 8; ++n)
     {
-      const bool across = n == first || n == 7 - first;
-      if (across == (block[n] == ring))
+      if ((block[n] == block[first]) != (n == first || n == last))
       {
         return;
       }
-      if (across)
-      {
-        const Index face = this->Faces[n & 4 ? 0 : 1][0][n & 2 ? at : at - this->Width];
-        sides[n == first] = 2 * face + (n & 1 ? 1 : 0); // the side of the ring's voxel beside it along x
-      }
     }
-    this->Sides.Unite(sides[0], sides[1]);
+    const auto side = [&](int n) // of voxel n, towards the one beside it along x
+    {
+      const Index face = this->Faces[n & 4 ? 0 : 1][0][n & 2 ? at : at - this->Width];
+      return 2 * face + (n & 1 ? 0 : 1);
+    };
+    this->Sides.Unite(side(first), side(last));
   }
 
   void AddEuler(const std::array<MaterialId, 8>& block)

@@ -9,9 +9,10 @@
 
 namespace LabelMesh
 {
-/// The voxels of one label. Voxels belong together that share a face (6-connectivity): voxels that touch along an edge
-/// or at a corner only do not, as their common interface has no area through which a mesh could join them, and as
-/// labels that touch share a face. All numbers follow from this one rule, with space outside the volume as background.
+/// The voxels of one label, as the union of closed cubes: voxels belong together that share a face, an edge or a corner
+/// (26-connectivity), and what surrounds them is joined by faces. That is what becomes of most of them in a mesh:
+/// smoothing joins what touches. With 6-connectivity every voxel of a rough surface that hangs on by an edge would be a
+/// part of its own. All numbers follow from this one rule, with space outside the volume as background.
 struct VoxelObject
 {
   Index Voxels = 0;

@@ -79,16 +79,21 @@ TEST(VoxelObjects, KnownShapes)
   EXPECT_EQ(frame.Find(2).Objects[1].Euler, 2 - 2 * 5);
 }
 
-TEST(VoxelObjects, TouchingAlongAnEdgeIsApart)
+TEST(VoxelObjects, VoxelsThatTouchBelongTogether)
 {
   const Volume pair(2, 2, 1, [](int i, int j, int) { return i == j; });
-  Expect(pair.Find(2).Objects[1], 2, 2, 0, 0, 2);
+  Expect(pair.Find(2).Objects[1], 2, 1, 0, 0, 1);
   const Volume corner(2, 2, 2, [](int i, int j, int k) { return i == j && j == k; });
-  Expect(corner.Find(2).Objects[1], 2, 2, 0, 0, 2);
-  // A hollow and a shaft that meet along an edge: the wall's voxels there do not, so the hollow is open.
-  const Volume leak(4, 4, 3, [](int i, int j, int k) { return (i != 1 || j != 1 || k != 1) && (i != 2 || j != 2); });
-  EXPECT_EQ(leak.Find(2).Objects[1].Parts, 1);
-  EXPECT_EQ(leak.Find(2).Objects[1].Cavities, 0);
+  Expect(corner.Find(2).Objects[1], 2, 1, 0, 0, 1);
+  const Volume apart(3, 1, 1, [](int i, int, int) { return i != 1; });
+  Expect(apart.Find(2).Objects[1], 2, 2, 0, 0, 2);
+  // Four voxels in a ring, each touching the next along an edge.
+  const Volume ring(3, 3, 1, [](int i, int j, int) { return (i + j) % 2; });
+  Expect(ring.Find(2).Objects[1], 4, 1, 1, 0, 1);
+  // A hollow and a shaft that meet along an edge: the wall is closed there.
+  const Volume wall(4, 4, 3, [](int i, int j, int k) { return (i != 1 || j != 1 || k != 1) && (i != 2 || j != 2); });
+  EXPECT_EQ(wall.Find(2).Objects[1].Parts, 1);
+  EXPECT_EQ(wall.Find(2).Objects[1].Cavities, 1);
 }
 
 TEST(VoxelObjects, FullAndPocketed)
@@ -111,7 +116,7 @@ TEST(VoxelObjects, FullAndPocketed)
 TEST(VoxelObjects, RunsCoverTheVolumeAndPartsAreByFloodFill)
 {
   std::mt19937 random(4);
-  const Volume noise(9, 8, 7, [&](int, int, int) { return int(random() % 3); });
+  const Volume noise(9, 8, 7, [&](int, int, int) { return int(random() % 8 < 6 ? 0 : random() % 2 + 1); });
   const VoxelObjects found = noise.Find(3);
   std::vector<Index> part(noise.Ids.size(), -1);
   for (const VoxelRun& run : found.Runs)
@@ -123,7 +128,6 @@ TEST(VoxelObjects, RunsCoverTheVolumeAndPartsAreByFloodFill)
       EXPECT_EQ(found.Parts[run.Part].Id, noise.Ids[v]);
     }
   }
-  const std::array<Index, 3> step{ 1, 9, 72 };
   Index components = 0;
   std::vector<bool> seen(part.size(), false);
   for (std::size_t start = 0; start < part.size(); ++start)
@@ -142,17 +146,14 @@ TEST(VoxelObjects, RunsCoverTheVolumeAndPartsAreByFloodFill)
       front.pop_back();
       ++count;
       EXPECT_EQ(part[v], part[start]);
-      const std::array<Index, 3> at{ v % 9, v / 9 % 8, v / 72 };
-      for (int a = 0; a < 3; ++a)
+      for (int n = 0; n < 27; ++n)
       {
-        for (const int d : { -1, 1 })
+        const int x = int(v % 9) + n % 3 - 1, y = int(v / 9 % 8) + n / 3 % 3 - 1, z = int(v / 72) + n / 9 - 1;
+        const Index w = x + 9 * (y + 8 * z);
+        if (Between(x, 0, 8) && Between(y, 0, 7) && Between(z, 0, 6) && !seen[w] && noise.Ids[w] == noise.Ids[v])
         {
-          const Index w = v + d * step[a];
-          if (at[a] + d >= 0 && at[a] + d < noise.Dims[a] && !seen[w] && noise.Ids[w] == noise.Ids[v])
-          {
-            seen[w] = true;
-            front.push_back(w);
-          }
+          seen[w] = true;
+          front.push_back(w);
         }
       }
     }
@@ -193,13 +194,13 @@ TEST(VoxelObjects, RunsCoverTheVolumeAndPartsAreByFloodFill)
   }
 }
 
-TEST(VoxelObjects, CavitiesAreHollowsThatTouchNothingElseAcrossEdgesAndCorners)
+TEST(VoxelObjects, CavitiesAreHollowsWithoutAWayOutAcrossFaces)
 {
-  // Against the definition: pieces of everything else that touch across faces, edges or corners, the outside excepted.
+  // Against the definition: pieces of everything else that touch across faces, the outside excepted.
   std::mt19937 random(6);
   for (int trial = 0; trial < 20; ++trial)
   {
-    const Volume noise(7, 7, 7, [&](int, int, int) { return random() % 100 < 80 ? 1 : 0; });
+    const Volume noise(7, 7, 7, [&](int, int, int) { return random() % 100 < 55 ? 1 : 0; });
     const auto solid = [&](int i, int j, int k)
     { return Between(i, 0, 6) && Between(j, 0, 6) && Between(k, 0, 6) && noise.Ids[i + 7 * (j + 7 * k)] == 1; };
     std::set<std::array<int, 3>> seen;
@@ -217,9 +218,10 @@ TEST(VoxelObjects, CavitiesAreHollowsThatTouchNothingElseAcrossEdgesAndCorners)
       {
         const auto v = front.back();
         front.pop_back();
-        for (int m = 0; m < 27; ++m)
+        for (int m = 0; m < 6; ++m)
         {
-          const std::array<int, 3> w{ v[0] + m % 3 - 1, v[1] + m / 3 % 3 - 1, v[2] + m / 9 - 1 };
+          std::array<int, 3> w = v;
+          w[m / 2] += m % 2 ? 1 : -1;
           if (Between(w[0], -1, 7) && Between(w[1], -1, 7) && Between(w[2], -1, 7) && !solid(w[0], w[1], w[2]) &&
             seen.insert(w).second)
           {

@@ -6,17 +6,24 @@
 #include "MeshAdapter.h"
 #include "TestMeshes.h"
 
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkPartitionedDataSetCollection.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 using namespace TestMeshes;
@@ -46,6 +53,59 @@ vtkSmartPointer<vtkPolyData> Mesh(const std::vector<Label>& labels)
   return mesh;
 }
 
+/// A volume and a mesh of it: label 4 is a box of 4 x 4 x 4 voxels, meshed as it is; a speck of 4 is not in the mesh,
+/// nor are the labels 7 and 9, which touch one another.
+vtkSmartPointer<vtkImageData> VolumeWithLosses()
+{
+  return LabelVolume({ 3, 12, 0, 9, -2, 7 },
+    [](int i, int j, int k)
+    {
+      const bool box = i >= 5 && i <= 8 && j >= 2 && j <= 5 && k >= 0 && k <= 3;
+      return box || (i == 12 && j == 9 && k == 7) ? 4 : j == 8 && k == 5 ? (i == 4 ? 7 : i == 5 || i == 6 ? 9 : 0) : 0;
+    });
+}
+
+vtkSmartPointer<vtkPolyData> BoxMesh(const Vec3& low, const Vec3& high)
+{
+  InterfaceMesh mesh;
+  for (int n = 0; n < 8; ++n)
+  {
+    Particle particle;
+    particle.Position = Vec3(n & 1 ? high[0] : low[0], n & 2 ? high[1] : low[1], n & 4 ? high[2] : low[2]);
+    particle.Materials.Insert(0);
+    particle.Materials.Insert(1);
+    mesh.Vertices.push_back(particle);
+  }
+  for (const auto& q : { std::array<Index, 4>{ 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 },
+         { 0, 4, 6, 2 }, { 1, 3, 7, 5 } })
+  {
+    mesh.Triangles.push_back({ { q[0], q[1], q[2] }, { 1, 0 } });
+    mesh.Triangles.push_back({ { q[0], q[2], q[3] }, { 1, 0 } });
+  }
+  auto output = vtkSmartPointer<vtkPolyData>::New();
+  const GridFrame frame({ 0, 9, 0, 9, 0, 9 }, Vec3::Zero(), Vec3::Ones(), Mat3::Identity());
+  InterfaceToPolyData(mesh, HeaderWith(frame, { 0, 4, 7, 9 }, 0), output);
+  return output;
+}
+
+std::string Text(vtkTable* table, vtkIdType row, const char* column)
+{
+  return table->GetValueByName(row, column).ToString();
+}
+
+double Total(vtkTable* table, const char* name)
+{
+  vtkDataArray* array = table->GetFieldData()->GetArray(name);
+  EXPECT_NE(array, nullptr) << name;
+  return array ? array->GetComponent(0, 0) : 0.0;
+}
+
+std::string Certificate(vtkLabelMeshReport* report)
+{
+  return vtkStringArray::SafeDownCast(report->GetOutput(0)->GetFieldData()->GetAbstractArray("Certificate"))
+    ->GetValue(0);
+}
+
 double Cell(vtkTable* table, vtkIdType row, const char* column)
 {
   EXPECT_NE(table->GetColumnByName(column), nullptr) << column;
@@ -53,27 +113,18 @@ double Cell(vtkTable* table, vtkIdType row, const char* column)
 }
 }
 
-TEST(LabelImage, ReadsAnyTypeAndCountsContacts)
+TEST(LabelImage, ReadsAnyType)
 {
   const auto volume = Volume();
   const LabelImage image = ReadLabelImage(volume, volume->GetPointData()->GetScalars(), false);
   EXPECT_EQ(image.Labels, (std::vector<Label>{ 0, 4, 7, 9, 11 }));
-  const LabelCounts counts = CountLabels(image, 0);
-  EXPECT_EQ(counts.Voxels[1], 3 * 4 * 4);
-  EXPECT_EQ(counts.Voxels[2], 2 * 4 * 4);
-  Index border = 0, shared = 0;
-  for (const LabelCounts::Contact& contact : counts.Contacts)
-  {
-    shared += contact.Labels == std::array<Label, 2>{ 4, 7 } ? contact.Faces : 0;
-    border += contact.Labels == std::array<Label, 2>{ 0, 9 } ? contact.Faces : 0;
-  }
-  EXPECT_EQ(shared, 16);
-  EXPECT_EQ(border, 6) << "space outside the volume counts as background";
+  EXPECT_EQ(std::count(image.Ids.begin(), image.Ids.end(), MaterialId(1)), 3 * 4 * 4);
+  EXPECT_EQ(std::count(image.Ids.begin(), image.Ids.end(), MaterialId(2)), 2 * 4 * 4);
 
   LabelImage merged = image;
   MergeIntoBackground(merged, { 4, 9 }, 0);
   EXPECT_EQ(merged.Labels, (std::vector<Label>{ 0, 4, 9 }));
-  EXPECT_EQ(CountLabels(merged, 0).Voxels[1], 48);
+  EXPECT_EQ(std::count(merged.Ids.begin(), merged.Ids.end(), MaterialId(1)), 48);
 
   vtkNew<vtkFloatArray> floats;
   floats->DeepCopy(volume->GetPointData()->GetScalars());
@@ -187,6 +238,195 @@ TEST(LabelMeshReport, BrokenAndEmptyMeshes)
   report->Update();
   EXPECT_EQ(report->GetOutput(0)->GetNumberOfRows(), 5);
   EXPECT_EQ(Cell(report->GetOutput(0), 4, "Lost"), 1);
+}
+
+TEST(LabelMeshReport, Certificate)
+{
+  vtkNew<vtkLabelMeshReport> report;
+  const auto mesh = Mesh({ 0, 4, 7 });
+  report->SetInputData(0, mesh);
+  report->Update();
+  vtkTable* materials = report->GetOutput(0);
+  EXPECT_EQ(Total(materials, "Certified"), 1);
+  EXPECT_EQ(Certificate(report).find("certified: 22 triangles"), 0u) << Certificate(report);
+  for (int row = 0; row < 3; ++row)
+  {
+    EXPECT_EQ(Cell(materials, row, "Certified"), 1);
+    EXPECT_EQ(Cell(materials, row, "VertexManifold"), 1);
+    EXPECT_EQ(Cell(materials, row, "Genus"), 0);
+    EXPECT_EQ(Cell(materials, row, "Parts"), 1);
+    EXPECT_EQ(Cell(materials, row, "Cavities"), row == 0 ? 1 : 0);
+  }
+  // The worst triangle, and where it is.
+  const auto worst = vtkIdType(Total(materials, "WorstTriangle"));
+  double position[3], expected[3] = { 0, 0, 0 };
+  materials->GetFieldData()->GetArray("WorstPosition")->GetTuple(0, position);
+  for (int c = 0; c < 3; ++c)
+  {
+    double x[3];
+    mesh->GetPoint(mesh->GetCell(worst)->GetPointId(c), x);
+    for (int a = 0; a < 3; ++a)
+    {
+      expected[a] += x[a] / 3;
+    }
+  }
+  for (int a = 0; a < 3; ++a)
+  {
+    EXPECT_NEAR(position[a], expected[a], 1e-5);
+  }
+  EXPECT_NEAR(mesh->GetCellData()->GetArray(Names::RadiusRatio)->GetComponent(worst, 0),
+    Total(materials, "MinRadiusRatio"), 1e-12);
+
+  // A corner pulled through the opposite side: closed and manifold as before, but it cuts itself.
+  double x[3], far[3];
+  mesh->GetPoint(0, x);
+  mesh->GetPoint(11, far);
+  mesh->GetPoints()->SetPoint(0, 2 * far[0] - x[0], 2 * far[1] - x[1], 2 * far[2] - x[2]);
+  mesh->Modified();
+  report->Update();
+  EXPECT_EQ(Total(materials, "Certified"), 0);
+  EXPECT_GT(Total(materials, "SelfIntersectingPairs"), 0);
+  EXPECT_GT(Cell(materials, 0, "SelfIntersections"), 0);
+  EXPECT_EQ(Cell(materials, 1, "EdgeManifold"), 1);
+  EXPECT_EQ(Certificate(report).find("not certified: "), 0u);
+  EXPECT_NE(Certificate(report).find("of triangles intersect"), std::string::npos) << Certificate(report);
+
+  const auto open = Mesh({ 0, 4, 7 });
+  open->BuildCells();
+  open->DeleteCell(0);
+  open->RemoveDeletedCells();
+  report->SetInputData(0, open);
+  report->Update();
+  EXPECT_EQ(Total(materials, "Certified"), 0);
+  EXPECT_EQ(Cell(materials, 1, "Genus"), -1) << "an open surface has none";
+  EXPECT_NE(Certificate(report).find("6 open edges of the surfaces of labels 0, 4"), std::string::npos)
+    << Certificate(report);
+}
+
+TEST(LabelMeshReport, LedgerOfLosses)
+{
+  vtkNew<vtkLabelMeshReport> report;
+  report->SetInputData(0, BoxMesh(Vec3(4.5, 1.5, -0.5), Vec3(8.5, 5.5, 3.5)));
+  report->SetInputData(1, VolumeWithLosses());
+  report->Update();
+  vtkTable* materials = report->GetOutput(0);
+  EXPECT_EQ(Cell(materials, 1, "Voxels"), 65);
+  EXPECT_EQ(Cell(materials, 1, "VoxelParts"), 2);
+  EXPECT_EQ(Cell(materials, 1, "VoxelEuler"), 4);
+  EXPECT_EQ(Cell(materials, 1, "VoxelGenus"), 0);
+  EXPECT_EQ(Cell(materials, 1, "VoxelComponents"), 2);
+  EXPECT_EQ(Cell(materials, 1, "Parts"), 1);
+  EXPECT_EQ(Cell(materials, 1, "LostParts"), 1);
+  EXPECT_EQ(Cell(materials, 1, "MisclassifiedVoxels"), 1);
+  EXPECT_EQ(Total(materials, "MisclassifiedVoxels"), 1 + 1 + 2);
+  EXPECT_EQ(Total(materials, "UndecidedVoxels"), 0);
+
+  vtkTable* losses = report->GetOutput(2);
+  const char* const kinds[] = { "label", "label", "parts", "pair", "pair", "pair" };
+  const int labels[][2] = { { 7, 7 }, { 9, 9 }, { 4, 4 }, { 7, 0 }, { 9, 0 }, { 7, 9 } };
+  const int sizes[][2] = { { 1, 1 }, { 1, 2 }, { 1, 1 }, { 0, 5 }, { 0, 9 }, { 0, 1 } };
+  ASSERT_EQ(losses->GetNumberOfRows(), 6);
+  for (int row = 0; row < 6; ++row)
+  {
+    EXPECT_EQ(Text(losses, row, "Kind"), kinds[row]);
+    EXPECT_EQ(Cell(losses, row, "LabelA"), labels[row][0]);
+    EXPECT_EQ(Cell(losses, row, "LabelB"), labels[row][1]);
+    EXPECT_EQ(Cell(losses, row, "Parts"), sizes[row][0]);
+    EXPECT_EQ(Cell(losses, row, "Voxels"), sizes[row][1]);
+    EXPECT_EQ(Text(losses, row, "Stage"), "") << "nothing tells it";
+    EXPECT_FALSE(Text(losses, row, "Advice").empty());
+  }
+  double position[3];
+  vtkDataArray::SafeDownCast(losses->GetColumnByName("Position"))->GetTuple(2, position);
+  EXPECT_EQ(Vec3(position[0], position[1], position[2]), Vec3(12, 9, 7));
+}
+
+TEST(LabelMeshReport, StagesOfLosses)
+{
+  vtkNew<vtkLabelMeshReport> report;
+  report->SetInputData(0, BoxMesh(Vec3(4.5, 1.5, -0.5), Vec3(8.5, 5.5, 3.5)));
+  const auto volume = VolumeWithLosses();
+  report->SetInputData(1, volume);
+  const auto stageOf = [&](int row)
+  {
+    report->Update();
+    return Text(report->GetOutput(2), row, "Stage");
+  };
+  // Volumes: label 7 has no mask, 9 is gone after tightening.
+  vtkNew<vtkPartitionedDataSetCollection> stages;
+  WriteMaterials(stages->GetFieldData(), { DefaultMaterial(4), DefaultMaterial(7), DefaultMaterial(9) }, 0);
+  const double values[2][3] = { { 65, 0, 2 }, { 64, 0, 0 } };
+  for (int stage = 0; stage < 2; ++stage)
+  {
+    vtkNew<vtkDoubleArray> volumes;
+    volumes->SetName(stage == 0 ? Names::MaskVolumes : Names::TightVolumes);
+    for (const double value : values[stage])
+    {
+      volumes->InsertNextValue(value);
+    }
+    stages->GetFieldData()->AddArray(volumes);
+  }
+  report->SetInputData(2, stages);
+  EXPECT_EQ(stageOf(0), "LabelSplit");
+  EXPECT_EQ(stageOf(1), "Tighten");
+  EXPECT_EQ(stageOf(2), "") << "the volume of 4 says nothing of its speck";
+
+  // What the indicators say of the voxels: the speck is there.
+  const auto tight =
+    LabelVolume({ 3, 12, 0, 9, -2, 7 }, [](int i, int j, int k) { return i == 12 && j == 9 && k == 7 ? 4 : 0; });
+  tight->GetPointData()->GetScalars()->SetName(Names::Label);
+  report->SetInputData(3, tight);
+  EXPECT_EQ(stageOf(2), "ParticleSampleCells or later");
+  EXPECT_EQ(stageOf(5), "LabelSplit") << "7 and 9";
+
+  // Particles that know of the speck, and then none that do.
+  vtkNew<vtkPolyData> particles;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(12.4, 9, 7);
+  particles->SetPoints(points);
+  vtkNew<vtkTypeInt64Array> sets;
+  sets->SetName(Names::Materials);
+  sets->SetNumberOfComponents(8);
+  const double set[8] = { 0, 4, 4, 4, 4, 4, 4, 4 };
+  sets->InsertNextTuple(set);
+  vtkNew<vtkUnsignedCharArray> numbers;
+  numbers->SetName(Names::NumberOfMaterials);
+  numbers->InsertNextValue(2);
+  particles->GetPointData()->AddArray(sets);
+  particles->GetPointData()->AddArray(numbers);
+  report->SetInputData(4, particles);
+  EXPECT_EQ(stageOf(2), "DelaunayLabelMesh");
+  points->SetPoint(0, 9, 9, 7);
+  points->Modified();
+  particles->Modified();
+  EXPECT_EQ(stageOf(2), "ParticleSampleCells");
+  report->RemoveAllInputConnections(3);
+  EXPECT_EQ(stageOf(2), "Tighten") << "particles lie on all that smoothing has left";
+}
+
+TEST(LabelMeshReport, ErrorMap)
+{
+  vtkNew<vtkLabelMeshReport> report;
+  Complaints complaints(report);
+  report->SetInputData(0, BoxMesh(Vec3(4.5, 1.5, -0.25), Vec3(8.5, 5.5, 3.5)));
+  report->SetInputData(1, VolumeWithLosses());
+  report->Update();
+  EXPECT_EQ(report->GetErrorMapOutput()->GetNumberOfPoints(), 0);
+  report->ErrorMapOn();
+  report->Update();
+  vtkPolyData* map = report->GetErrorMapOutput();
+  ASSERT_EQ(map->GetNumberOfCells(), 12);
+  vtkDataArray* distances = map->GetPointData()->GetArray(Names::DistanceToVoxels);
+  ASSERT_NE(distances, nullptr);
+  for (vtkIdType p = 0; p < 8; ++p)
+  {
+    // The lower side lies a quarter of a voxel inside; its corners are on the faces beside it.
+    EXPECT_NEAR(distances->GetComponent(p, 0), 0.0, 1e-6);
+  }
+  EXPECT_EQ(complaints.Count, 0) << complaints.Text;
+  report->RemoveAllInputConnections(1);
+  report->Update();
+  EXPECT_TRUE(complaints.Say("input port 1")) << complaints.Text;
 }
 
 TEST(LabelMeshReport, SaysWhatIsMissing)
