@@ -21,6 +21,7 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkVariant.h>
 
 #include <algorithm>
@@ -305,17 +306,12 @@ CollectionHeader ReadHeader(vtkPartitionedDataSetCollection* collection)
   return header;
 }
 
-void AppendBlock(vtkPartitionedDataSetCollection* collection, const Material& material, const GridFrame& frame,
-  const char* arrayName, std::vector<float>&& values)
+void AppendBlock(
+  vtkPartitionedDataSetCollection* collection, const Material& material, const GridFrame& frame, vtkDataArray* values)
 {
   vtkNew<vtkImageData> image;
   SetFrame(image, frame);
-  vtkNew<vtkFloatArray> array;
-  array->SetName(arrayName);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  std::vector<float>().swap(values);
-  image->GetPointData()->SetScalars(array);
+  image->GetPointData()->SetScalars(values);
   vtkNew<vtkTypeInt64Array> label;
   label->SetName(Names::Label);
   label->InsertNextValue(material.Label);
@@ -354,19 +350,35 @@ vtkImageData* BlockImage(vtkPartitionedDataSetCollection* collection, unsigned i
   return image;
 }
 
-const float* BlockValues(vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName)
+namespace
+{
+/// The block's point array of that name, of a type that is called `typeName` to the user.
+template <typename Array>
+Array* BlockArray(
+  vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName, const char* typeName)
 {
   vtkImageData* image = BlockImage(collection, n);
-  vtkFloatArray* array = vtkFloatArray::FastDownCast(image->GetPointData()->GetArray(arrayName));
+  Array* array = Array::FastDownCast(image->GetPointData()->GetArray(arrayName));
   if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != image->GetNumberOfPoints())
   {
     const char* found =
       image->GetPointData()->GetNumberOfArrays() > 0 ? image->GetPointData()->GetArrayName(0) : nullptr;
-    Fail("Block '" + BlockName(collection, n) + "' has no float32 point array '" + arrayName + "'" +
+    Fail("Block '" + BlockName(collection, n) + "' has no " + typeName + " point array '" + arrayName + "'" +
       (found ? std::string(" (it has '") + found + "')" : std::string()) + ". Connect the output of " +
       MakerOf(arrayName) + ".");
   }
-  return array->GetPointer(0);
+  return array;
+}
+}
+
+const float* BlockValues(vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName)
+{
+  return BlockArray<vtkFloatArray>(collection, n, arrayName, "float32")->GetPointer(0);
+}
+
+const std::uint8_t* BlockMask(vtkPartitionedDataSetCollection* collection, unsigned int n)
+{
+  return BlockArray<vtkUnsignedCharArray>(collection, n, Names::Mask, "uint8")->GetPointer(0);
 }
 
 IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header)

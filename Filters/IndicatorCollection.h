@@ -2,7 +2,7 @@
 // The contract of the material collections: the only place where their VTK data meets Core.
 //
 // A vtkPartitionedDataSetCollection with one vtkImageData per material (one partition each), ascending by label:
-//  - block NAME = material name; one active float32 point array named Mask, TightDistance or Indicator;
+//  - block NAME = material name; one active point array named Mask (uint8), TightDistance or Indicator (float32);
 //    block field data Label (int64), Color;
 //  - collection field data: Labels, MaterialNames, MaterialColors, BackgroundLabel, VoxelSize, SourceExtent,
 //  SourceOrigin,
@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkFieldData;
 class vtkImageData;
 class vtkInformation;
@@ -58,15 +59,16 @@ void WriteHeader(vtkPartitionedDataSetCollection* collection, const CollectionHe
 /// Throws std::invalid_argument with a sentence for the user when the collection does not keep the contract.
 CollectionHeader ReadHeader(vtkPartitionedDataSetCollection* collection);
 
-/// Appends a block on `frame` with its name, label and colour, and `values` as its active array. The memory of `values`
-/// is given back.
-void AppendBlock(vtkPartitionedDataSetCollection* collection, const Material& material, const GridFrame& frame,
-  const char* arrayName, std::vector<float>&& values);
+/// Appends a block on `frame` with its name, label and colour, and `values` as its active array (shared).
+void AppendBlock(
+  vtkPartitionedDataSetCollection* collection, const Material& material, const GridFrame& frame, vtkDataArray* values);
 /// The n-th material's image. Throws std::invalid_argument when the block is not one image.
 vtkImageData* BlockImage(vtkPartitionedDataSetCollection* collection, unsigned int n);
 /// Its samples. Throws std::invalid_argument when it has no float32 point array `arrayName`, naming the filter whose
 /// output is expected.
 const float* BlockValues(vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName);
+/// The same of the uint8 array Mask.
+const std::uint8_t* BlockMask(vtkPartitionedDataSetCollection* collection, unsigned int n);
 
 /// An evaluator over the collection's Indicator arrays (shared, not copied: keep the collection alive).
 IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header);

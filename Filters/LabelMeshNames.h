@@ -6,7 +6,7 @@
 namespace LabelMesh::Names
 {
 // Point arrays of the material blocks: the name tells the stage.
-inline constexpr char Mask[] = "Mask";                   ///< float32: 1 inside, 0 outside
+inline constexpr char Mask[] = "Mask";                   ///< uint8: 1 inside, 0 outside
 inline constexpr char TightDistance[] = "TightDistance"; ///< float32, world length, > 0 inside
 inline constexpr char Indicator[] = "Indicator";         ///< float32, world length, > 0 inside
 

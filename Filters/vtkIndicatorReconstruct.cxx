@@ -11,6 +11,7 @@
 
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -71,12 +72,12 @@ void Reconstruct(vtkPartitionedDataSetCollection* input, const CollectionHeader&
     vtkImageData* block = BlockImage(input, n);
     const float* distance = BlockValues(input, n, Names::TightDistance);
     const float constant = float(perturbation * voxel * GoldenSequence(n));
-    std::vector<float> values(distance, distance + block->GetNumberOfPoints());
-    for (float& value : values)
-    {
-      value += constant;
-    }
-    AppendBlock(output, header.Materials[n], FrameOf(block), Names::Indicator, std::move(values));
+    vtkNew<vtkFloatArray> values;
+    values->SetName(Names::Indicator);
+    values->SetNumberOfValues(block->GetNumberOfPoints());
+    std::transform(distance, distance + block->GetNumberOfPoints(), values->GetPointer(0),
+      [constant](float value) { return value + constant; });
+    AppendBlock(output, header.Materials[n], FrameOf(block), values);
     PassFieldData(block->GetFieldData(), BlockImage(output, n)->GetFieldData());
   }
 }

@@ -16,12 +16,15 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -242,13 +245,19 @@ std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, C
     options.OpeningRadius = RadiusIn(source, "opening", filter->GetMaterialOpeningRadius(material.Label));
     options.ClosingRadius = RadiusIn(source, "closing", filter->GetMaterialClosingRadius(material.Label));
     const Box box = BlockBox(boxes[id], source, id == background, header.Padding);
-    std::vector<float> mask = MaskOf(image.Ids, source, MaterialId(id), background, box, options);
-    if (options.OpeningRadius > 0 && std::find(mask.begin(), mask.end(), 1.0f) == mask.end())
+    const GridFrame frame = BlockFrame(header.Source, box);
+    const Index size = frame.Samples().Size();
+    vtkNew<vtkUnsignedCharArray> mask;
+    mask->SetName(Names::Mask);
+    mask->SetNumberOfValues(size);
+    std::uint8_t* const values = mask->GetPointer(0);
+    MaskOf(image.Ids, source, MaterialId(id), background, box, options, values);
+    if (options.OpeningRadius > 0 && !std::memchr(values, 1, static_cast<std::size_t>(size)))
     {
       lost.push_back(material.Label);
     }
     header.Materials.push_back(material);
-    AppendBlock(output, material, BlockFrame(header.Source, box), Names::Mask, std::move(mask));
+    AppendBlock(output, material, frame, mask);
   }
   return lost;
 }

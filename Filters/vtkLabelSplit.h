@@ -9,7 +9,7 @@
  *
  * Output port 0 (vtkPartitionedDataSetCollection): one vtkImageData per material, ascending by label, the background
  * among them (see IndicatorCollection.h).
- *  - block point data "Mask" (float32): 1 inside, 0 outside
+ *  - block point data "Mask" (uint8): 1 inside, 0 outside
  *  - block field data "Label" (int64), "Color" (float64 x 3); block name: the material's name
  *  - field data of the collection: Labels (int64), MaterialNames (string), MaterialColors (float64 x 3),
  * BackgroundLabel (int64), SourceExtent (int32 x 6), SourceOrigin (float64 x 3), SourceDirection (float64 x 9),

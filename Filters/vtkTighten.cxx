@@ -10,12 +10,14 @@
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSetCollection.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -56,9 +58,10 @@ std::string UnknownLabels(const std::map<vtkIdType, double>& radii, const Collec
 struct Job
 {
   Lattice Frame;
-  const float* Mask = nullptr;
+  const std::uint8_t* Mask = nullptr;
   TightenOptions Options;
-  TightenResult Result;
+  vtkSmartPointer<vtkFloatArray> Distance;
+  TightenVolumes Volumes;
   std::exception_ptr Problem;
 };
 
@@ -73,7 +76,7 @@ void TightenTogether(std::vector<Job>& jobs, const std::vector<std::size_t>& cho
         Job& job = jobs[chosen[n]];
         try
         {
-          job.Result = Tighten(job.Frame, job.Mask, job.Options, Monitor());
+          job.Volumes = Tighten(job.Frame, job.Mask, job.Options, Monitor(), job.Distance->GetPointer(0));
         }
         catch (...)
         {
@@ -123,13 +126,13 @@ void TightenAll(std::vector<Job>& jobs, const std::vector<Material>& materials, 
       const Monitor part = monitor.Part(done / total, (done + double(size)) / total);
       const std::string& name = materials[n].Name;
       part.Step(0.0, "Tightening " + name);
-      job.Result = Tighten(job.Frame, job.Mask, job.Options,
-        Monitor(
-          [&part, &name](double fraction, const std::string& text)
-          {
-            part.Step(fraction, text + " of " + name); // throws to stop
-            return false;
-          }));
+      const Monitor named(
+        [&part, &name](double fraction, const std::string& text)
+        {
+          part.Step(fraction, text + " of " + name); // throws to stop
+          return false;
+        });
+      job.Volumes = Tighten(job.Frame, job.Mask, job.Options, named, job.Distance->GetPointer(0));
       done += double(size);
     }
     else
@@ -161,20 +164,21 @@ void SmoothTogether(
   std::vector<MaterialMask> masks;
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
-    masks.push_back({ header.Materials[n].Name, jobs[n].Frame, jobs[n].Mask, jobs[n].Options.Radius });
+    masks.push_back({ header.Materials[n].Name, jobs[n].Frame, jobs[n].Mask, jobs[n].Options.Radius,
+      jobs[n].Distance->GetPointer(0) });
   }
-  std::vector<TightenResult> results =
+  const std::vector<TightenVolumes> volumes =
     SmoothJointly(header.Source.LatticeOf(header.WorkingFrame()), masks, options, monitor);
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
-    jobs[n].Result = std::move(results[n]);
+    jobs[n].Volumes = volumes[n];
   }
 }
 
 /// Share of its volume that a material keeps; 1 where there was none.
-double KeptShare(const TightenResult& result)
+double KeptShare(const TightenVolumes& volumes)
 {
-  return result.MaskVolume > 0 ? result.TightVolume / result.MaskVolume : 1.0;
+  return volumes.Mask > 0 ? volumes.Tight / volumes.Mask : 1.0;
 }
 
 /// Takes as each material's volume what it holds among all of them; alone, one that its neighbours fill up would look
@@ -191,19 +195,20 @@ void MeasurePartition(std::vector<Job>& jobs, const CollectionHeader& header)
   {
     const double end = jobs[n].Options.Band * jobs[n].Frame.VoxelSize();
     const LabelMesh::Label label = header.Materials[n].Label;
-    blocks.push_back({ label, jobs[n].Frame, jobs[n].Result.Distance.data(), label == header.Background ? end : -end });
+    blocks.push_back(
+      { label, jobs[n].Frame, jobs[n].Distance->GetPointer(0), label == header.Background ? end : -end });
   }
   const IndicatorSet partition(std::move(blocks), header.Background, working);
   const std::vector<double> volumes = PartitionVolumes(partition);
   double rest = double(working.Size()) * working.VoxelVolume();
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
-    jobs[n].Result.TightVolume = volumes[n];
+    jobs[n].Volumes.Tight = volumes[n];
     rest -= volumes[n];
   }
   if (partition.Background() != NoMaterial)
   {
-    jobs[partition.Background()].Result.TightVolume += rest;
+    jobs[partition.Background()].Volumes.Tight += rest;
   }
 }
 
@@ -215,9 +220,9 @@ void AddVolumes(vtkFieldData* fieldData, const std::vector<Job>& jobs)
   kept->SetName(Names::KeptVolumes);
   for (const Job& job : jobs)
   {
-    before->InsertNextValue(job.Result.MaskVolume);
-    after->InsertNextValue(job.Result.TightVolume);
-    kept->InsertNextValue(KeptShare(job.Result));
+    before->InsertNextValue(job.Volumes.Mask);
+    after->InsertNextValue(job.Volumes.Tight);
+    kept->InsertNextValue(KeptShare(job.Volumes));
   }
   for (vtkDoubleArray* array : { before.Get(), after.Get(), kept.Get() })
   {
@@ -232,7 +237,7 @@ std::string LossesOf(const std::vector<Job>& jobs, const CollectionHeader& heade
   std::size_t count = 0;
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
-    const double kept = KeptShare(jobs[n].Result);
+    const double kept = KeptShare(jobs[n].Volumes);
     if (kept < 1 - LargeLoss && header.Materials[n].Label != header.Background && ++count <= LongestList)
     {
       char figures[128];
@@ -300,8 +305,11 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
       for (unsigned int n = 0; n < jobs.size(); ++n)
       {
         jobs[n].Frame = header.Source.LatticeOf(FrameOf(BlockImage(input, n)));
-        jobs[n].Mask = BlockValues(input, n, Names::Mask);
+        jobs[n].Mask = BlockMask(input, n);
         jobs[n].Options = OptionsOf(this, header.Materials[n].Label);
+        jobs[n].Distance = vtkSmartPointer<vtkFloatArray>::New();
+        jobs[n].Distance->SetName(Names::TightDistance);
+        jobs[n].Distance->SetNumberOfValues(jobs[n].Frame.Size());
       }
       const std::string unknown = UnknownLabels(this->MaterialRadii, header);
       if (!unknown.empty())
@@ -331,8 +339,7 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
       }
       for (unsigned int n = 0; n < jobs.size(); ++n)
       {
-        AppendBlock(output, header.Materials[n], FrameOf(BlockImage(input, n)), Names::TightDistance,
-          std::move(jobs[n].Result.Distance));
+        AppendBlock(output, header.Materials[n], FrameOf(BlockImage(input, n)), jobs[n].Distance);
       }
       WriteHeader(output, header);
       AddVolumes(output->GetFieldData(), jobs);

@@ -6,6 +6,7 @@
 #include "NarrowBand.h"
 
 #include "Parallel.h"
+#include "VectorLoops.h"
 
 namespace LabelMesh
 {
@@ -15,6 +16,8 @@ constexpr float Tolerance =
   0.1f; // voxels: what a ball's reach loses because its centre is a sample, if those are a voxel apart
 constexpr float RoundOff = 0.01f; // voxels: a plate as thick as the ball fits
 constexpr float Nothing = -1e6f;  // no ball
+constexpr float Everything = 1e6f;
+constexpr double HeldBeyond = 1.0; // voxels beyond the radius: farther samples keep their value
 
 /// Samples within reach of a ball's centre, as offsets in memory.
 struct Offset
@@ -50,21 +53,25 @@ std::vector<Offset> OffsetsWithin(const Lattice& frame, double reach)
 }
 
 /// best = max over the offsets of s phi(y) - |x - y|, where s phi(y) >= radius.
-void BallsAtSamples(
-  const float* phi, float* __restrict best, Index count, float sign, float radius, const std::vector<Offset>& offsets)
+LABELMESH_FOR_ANY_X86
+void BallsAtSamples(const float* __restrict phi, float* __restrict best, Index count, float sign, float radius,
+  const std::vector<Offset>& offsets)
 {
-  std::fill_n(best, count, Nothing);
-  for (const Offset& offset : offsets)
-  {
-    const float* __restrict p = phi + offset.Step;
-    const float length = offset.Length;
-    for (Index i = 0; i < count; ++i)
+  ForLanes(count,
+    [&](auto lanes, Index i)
     {
-      const float value = sign * p[i];
-      const float ball = (value >= radius ? value : Nothing) - length;
-      best[i] = best[i] > ball ? best[i] : ball;
-    }
-  }
+      using Vector = typename decltype(lanes)::Vector;
+      const Vector nothing = Vector{} + Nothing;
+      Vector largest = nothing, value;
+      for (const Offset& offset : offsets)
+      {
+        Load(phi + i + offset.Step, value);
+        value *= sign;
+        const Vector ball = (value >= radius ? value : nothing) - offset.Length;
+        largest = largest > ball ? largest : ball;
+      }
+      Store(largest, best + i);
+    });
 }
 
 /// The same near the border of the lattice, whose samples are all that there is.
@@ -110,7 +117,7 @@ bool RidgeBetween(const float* p, Index step, float sign, float radius, RidgePoi
   return std::abs(ridge.FromMiddle) <= 0.5f && ridge.Radius >= radius;
 }
 
-void BallAtRidge(const Lattice& frame, const RidgePoint& ridge, double reach, std::vector<float>& best)
+void BallAtRidge(const Lattice& frame, const RidgePoint& ridge, double reach, float* best)
 {
   const auto at = frame.Coordinates(ridge.Sample);
   Vec3 center(at[0], at[1], at[2]);
@@ -167,47 +174,61 @@ void FindRidges(const Lattice& frame, const float* phi, Index from, Index count,
 
 std::vector<float> NarrowBand::UnionOfBalls(double radius, float sign) const
 {
-  const Lattice& frame = this->Frame;
-  const float* const phi = this->Phi.data();
-  const float least = float(radius) - RoundOff;
+  const Lattice& frame = this->Where->Frame();
+  const float* const phi = this->Phi;
+  const float least = float(radius) - RoundOff, far = float(-radius - HeldBeyond);
   const double reach = BallReach(radius);
   const std::vector<Offset> offsets = OffsetsWithin(frame, reach);
-  std::vector<float> best(this->Phi.size(), Nothing);
-  std::vector<std::vector<RidgePoint>> ridges(this->Chunks.size());
-  ParallelFor(0, Index(this->Chunks.size()) - 1, 0,
+  float* const best = this->Memory->Third.Sized(frame.Size());
+  std::vector<std::vector<RidgePoint>> ridges(static_cast<std::size_t>(this->Where->NumberOfPieces()));
+  const auto visit = [&](const BandLayout::Run& run, std::vector<RidgePoint>& found)
+  {
+    float* const to = best + run.First;
+    const float* const row = phi + run.First;
+    std::fill_n(to, run.Count, Everything);
+    // A sample as deep as the ball is inside of its own.
+    const auto open = [&](float value) { return sign * value < least && sign * value > far; };
+    for (int i = 0; i < run.Count;)
+    {
+      const int first = i = int(std::find_if(row + i, row + run.Count, open) - row);
+      i = int(std::find_if_not(row + i, row + run.Count, open) - row);
+      if (i > first)
+      {
+        const auto at = frame.Coordinates(run.First + first);
+        IsInner(frame, at, i - first, reach)
+          ? BallsAtSamples(row + first, to + first, i - first, sign, least, offsets)
+          : BallsAtBorder(frame, row + first, at, to + first, i - first, sign, least, offsets);
+        FindRidges(frame, phi, run.First + first, i - first, sign, least, found);
+      }
+    }
+  };
+  ParallelFor(0, Index(ridges.size()), 0,
     [&](Index first, Index last)
     {
-      for (Index c = first; c < last; ++c)
+      for (Index piece = first; piece < last; ++piece)
       {
-        for (Index r = this->Chunks[c]; r < this->Chunks[c + 1]; ++r)
-        {
-          const Run& run = this->Runs[r];
-          const auto at = frame.Coordinates(run.First);
-          float* const to = best.data() + run.First;
-          IsInner(frame, at, run.Count, reach)
-            ? BallsAtSamples(phi + run.First, to, run.Count, sign, least, offsets)
-            : BallsAtBorder(frame, phi + run.First, at, to, run.Count, sign, least, offsets);
-          FindRidges(frame, phi, run.First, run.Count, sign, least, ridges[c]);
-        }
+        this->Where->VisitPiece(piece,
+          [&](const BandLayout::Run* runs, Index count, Index)
+          { std::for_each(runs, runs + count, [&](const BandLayout::Run& run) { visit(run, ridges[piece]); }); });
       }
     });
-  for (const auto& chunk : ridges)
+  for (const auto& piece : ridges)
   {
-    for (const RidgePoint& ridge : chunk)
+    for (const RidgePoint& ridge : piece)
     {
       BallAtRidge(frame, ridge, reach, best);
     }
   }
   // A centre that is off by half a sample to the side costs the square of that.
   const float tolerance = Tolerance * float(std::max(1.0, frame.Spacing.cwiseAbs2().maxCoeff()));
-  std::vector<float> bound(static_cast<std::size_t>(this->Active));
-  this->ForRuns(
-    [&](const Run& run)
+  std::vector<float> bound(static_cast<std::size_t>(this->Where->NumberOfActive()));
+  this->Where->ForRuns(
+    [&](Index first, Index count, Index packed)
     {
-      for (Index i = 0; i < run.Count; ++i)
+      for (Index i = 0; i < count; ++i)
       {
-        const float value = sign * phi[run.First + i];
-        bound[run.Packed + i] = sign * std::min(value, best[run.First + i] + tolerance);
+        const float value = sign * phi[first + i];
+        bound[packed + i] = sign * std::min(value, best[first + i] + tolerance);
       }
     });
   return bound;

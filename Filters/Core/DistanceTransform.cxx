@@ -150,20 +150,6 @@ void StampBalls(const Lattice& frame, const std::vector<std::vector<Index>>& bou
 }
 }
 
-Sides SidesOf(const float* mask, Index count)
-{
-  Sides sides(static_cast<std::size_t>(count));
-  ParallelFor(0, count, 0,
-    [&](Index first, Index last)
-    {
-      for (Index i = first; i < last; ++i)
-      {
-        sides[i] = mask[i] > 0.5f;
-      }
-    });
-  return sides;
-}
-
 void SignedDistance(const Lattice& frame, const Sides& sides, double band, float* distance)
 {
   const auto ball = Ball(
@@ -197,13 +183,6 @@ void SignedDistance(const Lattice& frame, const Sides& sides, double band, float
     }
   };
   StampBalls(frame, FindBoundaries(frame, sides), ball, prepare, stamp);
-}
-
-std::vector<float> SignedDistance(const Lattice& frame, const float* mask, double band)
-{
-  std::vector<float> distance(static_cast<std::size_t>(frame.Size()));
-  SignedDistance(frame, SidesOf(mask, frame.Size()), band, distance.data());
-  return distance;
 }
 
 Sides Grown(const Lattice& frame, const Sides& sides, std::uint8_t value, double radius)

@@ -13,9 +13,6 @@ namespace LabelMesh
 /// The side of every sample: 1 inside, 0 outside.
 using Sides = std::vector<std::uint8_t>;
 
-/// Samples above one half are inside.
-Sides SidesOf(const float* mask, Index count);
-
 /// Signed distance of a mask (1 inside, 0 outside), > 0 inside, clamped to +-band; lengths as Lattice::Spacing.
 ///
 /// Let v be the vector to the nearest sample of the other side. The interface is taken to cross v half a sample away
@@ -23,7 +20,6 @@ Sides SidesOf(const float* mask, Index count);
 /// voxels and half the spacing between two neighbours in any case. Exact: every sample of the other side within the
 /// band is looked at. A mask continues beyond the lattice as its border samples do, so no interface lies there. The
 /// same bits for any number of threads.
-std::vector<float> SignedDistance(const Lattice& frame, const float* mask, double band);
 void SignedDistance(const Lattice& frame, const Sides& sides, double band, float* distance);
 
 /// All samples within `radius` (a length, inclusive) of a sample with side `value` get that side.

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
+//
+// Each pass writes just what the next one reads: along x all rows that the pass along y looks at, and so on. Then inner
+// loops need no look at what is there and what is not.
 #include "GaussianBlur.h"
 
 #include "Parallel.h"
+#include "VectorLoops.h"
 
 namespace LabelMesh
 {
 namespace
 {
+constexpr Index RowsAtOnce = 16;
+
 std::vector<float> Kernel(double sigma)
 {
   const int reach = std::max(1, int(std::ceil(3.0 * sigma)));
@@ -23,138 +29,176 @@ std::vector<float> Kernel(double sigma)
   return kernel;
 }
 
-RowRange Joined(const RowRange& a, const RowRange& b)
+std::array<std::vector<float>, 3> KernelsOf(const Lattice& frame, double sigma)
 {
-  return a.Empty() ? b : b.Empty() ? a : RowRange{ std::min(a.First, b.First), std::max(a.Last, b.Last) };
-}
+  return { Kernel(sigma / frame.Spacing[0]), Kernel(sigma / frame.Spacing[1]), Kernel(sigma / frame.Spacing[2]) };
 }
 
-GaussianBlur::GaussianBlur(const Lattice& frame, double sigma, std::vector<RowRange> rows)
-  : Dims(frame.Dims)
-  , Rows(std::move(rows))
+/// The samples that lie up to half a kernel from the set along an axis.
+BitLattice ReadAlong(const BitLattice& set, int axis, const std::vector<float>& kernel)
 {
-  for (int a = 0; a < 3; ++a)
-  {
-    this->Kernels[a] = Kernel(sigma / frame.Spacing[a]);
-  }
-  const Index nx = this->Dims[0], ny = this->Dims[1], nz = this->Dims[2];
-  const Index reachX = Index(this->Kernels[0].size()) / 2, reachY = Index(this->Kernels[1].size()) / 2;
-  this->AfterX = this->Rows;
-  for (RowRange& range : this->AfterX)
-  {
-    range =
-      range.Empty() ? range : RowRange{ std::max<Index>(0, range.First - reachX), std::min(nx, range.Last + reachX) };
-  }
-  this->AfterY.resize(this->AfterX.size());
-  for (Index k = 0; k < nz; ++k)
-  {
-    for (Index j = 0; j < ny; ++j)
+  std::array<int, 3> reach{ 0, 0, 0 };
+  reach[axis] = int(kernel.size()) / 2;
+  return Dilated(set, BoxOffsets(reach));
+}
+
+/// to[i] = sum over n of weights[n] from[i + n step].
+LABELMESH_FOR_ANY_X86
+void SumWeighted(const float* __restrict from, Index step, const float* __restrict weights, Index taps,
+  float* __restrict to, Index count)
+{
+  ForLanes(count,
+    [&](auto lanes, Index i)
     {
-      for (Index n = std::max<Index>(0, j - reachY); n <= std::min(ny - 1, j + reachY); ++n)
+      typename decltype(lanes)::Vector sum{}, values;
+      const float* row = from + i;
+      for (Index n = 0; n < taps; ++n, row += step)
       {
-        this->AfterY[j + ny * k] = Joined(this->AfterY[j + ny * k], this->AfterX[n + ny * k]);
+        Load(row, values);
+        sum += weights[n] * values;
+      }
+      Store(sum, to + i);
+    });
+}
+
+/// The part of a kernel around position `at` of `size` that lies within.
+struct Clipped
+{
+  Clipped(const std::vector<float>& kernel, Index at, Index size)
+    : First(std::max<Index>(0, at - Index(kernel.size()) / 2))
+    , Taps(std::min(size, at + Index(kernel.size()) / 2 + 1) - this->First)
+    , Weights(kernel.data() + (this->First - at + Index(kernel.size()) / 2))
+  {
+  }
+  Index First, Taps;
+  const float* Weights;
+};
+}
+
+GaussianBlur::RowSpans::RowSpans(const BitLattice& bits)
+{
+  const Index rows = Index(bits.Dimensions()[1]) * bits.Dimensions()[2];
+  this->Starts.reserve(static_cast<std::size_t>(rows + 1));
+  for (Index row = 0; row < rows; ++row)
+  {
+    this->Starts.push_back(std::uint32_t(this->Spans.size()));
+    FindSpans(bits.Row(row, 0), bits.WordsPerRow(), this->Spans);
+  }
+  this->Starts.push_back(std::uint32_t(this->Spans.size()));
+  this->Spans.shrink_to_fit();
+}
+
+GaussianBlur::GaussianBlur(const BandLayout& layout, double sigma)
+  : Kernels(KernelsOf(layout.Frame(), sigma))
+  , AfterX(ReadAlong(ReadAlong(layout.ActiveBits(), 2, this->Kernels[2]), 1, this->Kernels[1]))
+  , AfterY(ReadAlong(layout.ActiveBits(), 2, this->Kernels[2]))
+{
+}
+
+void GaussianBlur::Apply(const BandLayout& layout, float* values, float* box) const
+{
+  const auto& dims = layout.Frame().Dims;
+  ParallelFor(0, dims[2], 0,
+    [&](Index firstSlice, Index lastSlice)
+    {
+      std::vector<float> slice(static_cast<std::size_t>(Index(dims[0]) * dims[1])); // stays in the cache
+      std::vector<float> padded(static_cast<std::size_t>(dims[0]) + this->Kernels[0].size(), 0.0f);
+      for (Index k = firstSlice; k < lastSlice; ++k)
+      {
+        this->AlongX(layout, values, k, padded, slice.data());
+        this->AlongY(layout, slice.data(), k, box);
+      }
+    });
+  this->AlongZ(layout, box, values);
+}
+
+/// Into one slice. `padded` has a row of zeros, and half a kernel of them on either side.
+void GaussianBlur::AlongX(
+  const BandLayout& layout, const float* values, Index k, std::vector<float>& padded, float* slice) const
+{
+  const std::vector<float>& kernel = this->Kernels[0];
+  const Index nx = layout.Frame().Dims[0], ny = layout.Frame().Dims[1], reach = Index(kernel.size()) / 2;
+  const BandLayout::Run* run = layout.Runs().data() + layout.Slice(k).Run;
+  const BandLayout::Run* const end = layout.Runs().data() + layout.Slice(k + 1).Run;
+  if (run == end)
+  {
+    return;
+  }
+  const float* const packed = values + layout.Slice(k).Packed;
+  for (Index j = 0; j < ny; ++j)
+  {
+    const Index row = j + ny * k;
+    const BandLayout::Run* const first = run;
+    for (; run < end && run->First < (row + 1) * nx; ++run)
+    {
+      std::copy_n(packed + run->Packed, run->Count, padded.data() + (run->First - row * nx) + reach);
+    }
+    for (std::uint32_t s = this->AfterX.Starts[row]; s < this->AfterX.Starts[row + 1]; ++s)
+    {
+      const Span& span = this->AfterX.Spans[s];
+      float* const target = slice + j * nx + span.First;
+      if (first == run)
+      {
+        std::fill_n(target, span.Last - span.First, 0.0f);
+      }
+      else
+      {
+        SumWeighted(padded.data() + span.First, 1, kernel.data(), Index(kernel.size()), target, span.Last - span.First);
+      }
+    }
+    for (const BandLayout::Run* r = first; r < run; ++r)
+    {
+      std::fill_n(padded.data() + (r->First - row * nx) + reach, r->Count, 0.0f);
+    }
+  }
+}
+
+/// From that slice.
+void GaussianBlur::AlongY(const BandLayout& layout, const float* slice, Index k, float* box) const
+{
+  const Index nx = layout.Frame().Dims[0], ny = layout.Frame().Dims[1];
+  const bool empty = layout.Slice(k).Run == layout.Slice(k + 1).Run;
+  for (Index j = 0; j < ny; ++j)
+  {
+    const Clipped part(this->Kernels[1], j, ny);
+    const Index row = j + ny * k;
+    for (std::uint32_t s = this->AfterY.Starts[row]; s < this->AfterY.Starts[row + 1]; ++s)
+    {
+      const Span& span = this->AfterY.Spans[s];
+      float* const target = box + row * nx + span.First;
+      if (empty)
+      {
+        std::fill_n(target, span.Last - span.First, 0.0f);
+      }
+      else
+      {
+        SumWeighted(slice + part.First * nx + span.First, nx, part.Weights, part.Taps, target, span.Last - span.First);
       }
     }
   }
 }
 
-void GaussianBlur::Clear(std::vector<float>& field) const
+void GaussianBlur::AlongZ(const BandLayout& layout, const float* box, float* values) const
 {
-  const Index nx = this->Dims[0];
-  field.resize(nx * Index(this->Rows.size()));
-  ParallelFor(0, Index(this->Rows.size()), 0,
-    [&](Index first, Index last)
+  // A few rows of all slices, which stay in the cache.
+  const auto& dims = layout.Frame().Dims;
+  const Index slice = Index(dims[0]) * dims[1], ny = dims[1], nz = dims[2];
+  ParallelFor(0, (ny + RowsAtOnce - 1) / RowsAtOnce, 0,
+    [&](Index firstRows, Index lastRows)
     {
-      for (Index row = first; row < last; ++row)
+      for (Index j = firstRows * RowsAtOnce; j < std::min(ny, lastRows * RowsAtOnce); j += RowsAtOnce)
       {
-        const RowRange& range = this->Rows[row];
-        std::fill(
-          field.begin() + row * nx + range.First, field.begin() + row * nx + std::max(range.First, range.Last), 0.0f);
-      }
-    });
-}
-
-void GaussianBlur::Apply(std::vector<float>& field) const
-{
-  const Index ny = this->Dims[1], nz = this->Dims[2];
-  this->AlongX(field);
-  this->Across(nz, ny, ny, 1, this->Kernels[1], this->AfterX, this->AfterY, field);
-  this->Across(ny, 1, nz, ny, this->Kernels[2], this->AfterY, this->Rows, field);
-}
-
-void GaussianBlur::AlongX(std::vector<float>& field) const
-{
-  const std::vector<float>& kernel = this->Kernels[0];
-  const Index nx = this->Dims[0], reach = Index(kernel.size()) / 2;
-  ParallelFor(0, Index(this->Rows.size()), 0,
-    [&](Index first, Index last)
-    {
-      std::vector<float> padded(nx + 4 * reach);
-      for (Index row = first; row < last; ++row)
-      {
-        const RowRange &from = this->Rows[row], &to = this->AfterX[row];
-        if (from.Empty())
+        const Index rows = std::min(RowsAtOnce, ny - j);
+        for (Index k = 0; k < nz; ++k)
         {
-          continue;
-        }
-        float* const values = field.data() + row * nx;
-        // padded[i + reach] is the value at to.First + i.
-        std::fill(padded.begin(), padded.begin() + (to.Last - to.First) + 2 * reach, 0.0f);
-        std::copy(values + from.First, values + from.Last, padded.begin() + reach + (from.First - to.First));
-        std::fill(values + to.First, values + to.Last, 0.0f);
-        for (Index n = 0; n < Index(kernel.size()); ++n)
-        {
-          const float weight = kernel[n];
-          const float* const shifted = padded.data() + n;
-          for (Index i = 0; i < to.Last - to.First; ++i)
+          const Clipped part(this->Kernels[2], k, nz);
+          float* const to = values + layout.Slice(k).Packed;
+          const BandLayout::Run* const end = layout.Runs().data() + layout.Slice(k + 1).Run;
+          const Index beyond = layout.Frame().At(0, j + rows, k);
+          for (const BandLayout::Run* run = layout.RowBegin(j, k); run < end && run->First < beyond; ++run)
           {
-            values[to.First + i] += weight * shifted[i];
-          }
-        }
-      }
-    });
-}
-
-/// Sets of `count` rows, `rowStep` rows apart, set s starting at row s * setRows: each row becomes the weighted sum of
-/// its neighbours in the set.
-void GaussianBlur::Across(Index sets, Index setRows, Index count, Index rowStep, const std::vector<float>& kernel,
-  const std::vector<RowRange>& from, const std::vector<RowRange>& to, std::vector<float>& field) const
-{
-  const Index nx = this->Dims[0], reach = Index(kernel.size()) / 2;
-  ParallelFor(0, sets, 0,
-    [&](Index first, Index last)
-    {
-      std::vector<float> copy(count * nx);
-      for (Index set = first; set < last; ++set)
-      {
-        for (Index j = 0; j < count; ++j)
-        {
-          const Index row = set * setRows + j * rowStep;
-          if (!from[row].Empty())
-          {
-            std::copy(field.data() + row * nx + from[row].First, field.data() + row * nx + from[row].Last,
-              copy.data() + j * nx + from[row].First);
-          }
-        }
-        for (Index j = 0; j < count; ++j)
-        {
-          const Index row = set * setRows + j * rowStep;
-          const RowRange& wanted = to[row];
-          if (wanted.Empty())
-          {
-            continue;
-          }
-          float* const values = field.data() + row * nx;
-          std::fill(values + wanted.First, values + wanted.Last, 0.0f);
-          for (Index n = std::max<Index>(0, j - reach); n <= std::min(count - 1, j + reach); ++n)
-          {
-            const RowRange& there = from[set * setRows + n * rowStep];
-            const float weight = kernel[n - j + reach];
-            const float* const source = copy.data() + n * nx;
-            for (Index i = std::max(wanted.First, there.First); i < std::min(wanted.Last, there.Last); ++i)
-            {
-              values[i] += weight * source[i];
-            }
+            SumWeighted(box + run->First + (part.First - k) * slice, slice, part.Weights, part.Taps, to + run->Packed,
+              run->Count);
           }
         }
       }

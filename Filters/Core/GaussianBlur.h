@@ -3,42 +3,38 @@
 #ifndef LabelMesh_Core_GaussianBlur_h
 #define LabelMesh_Core_GaussianBlur_h
 
-#include "Lattice.h"
+#include "BandLayout.h"
 
 #include <vector>
 
 namespace LabelMesh
 {
-/// Part [First, Last) of a row along x.
-struct RowRange
-{
-  Index First = 0;
-  Index Last = 0;
-  bool Empty() const { return this->First >= this->Last; }
-};
-
-/// Convolution with a Gaussian of standard deviation `sigma` (same unit as the spacing), cut at three of them,
-/// restricted to one range of each row: what lies beyond the ranges is taken as zero and is not computed.
+/// Convolution with a Gaussian cut at three standard deviations, of values at the active samples of a band: what lies
+/// beyond them is taken as zero and is not computed.
 class GaussianBlur
 {
 public:
-  /// `rows` holds a range for each row, row (j, k) at j + Dims[1] * k.
-  GaussianBlur(const Lattice& frame, double sigma, std::vector<RowRange> rows);
+  /// `sigma` in voxels.
+  GaussianBlur(const BandLayout& layout, double sigma);
 
-  /// Makes `field` as large as the lattice and zero in the ranges.
-  void Clear(std::vector<float>& field) const;
-  /// Convolves in place. Values beyond the ranges are neither read nor kept.
-  void Apply(std::vector<float>& field) const;
+  /// Convolves packed values in place. `box` has room for the layout's lattice, to work in.
+  void Apply(const BandLayout& layout, float* values, float* box) const;
 
 private:
-  void AlongX(std::vector<float>& field) const;
-  void Across(Index sets, Index setRows, Index count, Index rowStep, const std::vector<float>& kernel,
-    const std::vector<RowRange>& from, const std::vector<RowRange>& to, std::vector<float>& field) const;
+  /// Spans of every row: those of row r are Spans[Starts[r]] up to Spans[Starts[r + 1]].
+  struct RowSpans
+  {
+    explicit RowSpans(const BitLattice& bits);
+    std::vector<std::uint32_t> Starts;
+    std::vector<Span> Spans;
+  };
 
-  std::array<int, 3> Dims;
+  void AlongX(const BandLayout& layout, const float* values, Index k, std::vector<float>& padded, float* slice) const;
+  void AlongY(const BandLayout& layout, const float* slice, Index k, float* box) const;
+  void AlongZ(const BandLayout& layout, const float* box, float* values) const;
+
   std::array<std::vector<float>, 3> Kernels;
-  std::vector<RowRange> Rows;           ///< of the result
-  std::vector<RowRange> AfterX, AfterY; ///< where the passes leave values
+  RowSpans AfterX, AfterY; ///< what the following pass reads
 };
 }
 

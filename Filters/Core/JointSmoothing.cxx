@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 
@@ -16,8 +17,9 @@ namespace LabelMesh
 namespace
 {
 // Lengths in voxels, times in voxels squared.
-constexpr double FlowTime = 0.2; // of one step of curvature flow
-constexpr int FlowSteps = 2;     // per round
+constexpr double FlowTime = 0.2;  // of one step of curvature flow
+constexpr int FlowSteps = 2;      // per round
+constexpr double RoundBand = 2.5; // half width of the bands while the fields move
 constexpr double RoundRedistance = 1.0;
 constexpr double FinalRedistance = 2.0;
 constexpr double ResidualWidth = 1.5; // standard deviation of the Gaussian
@@ -33,13 +35,52 @@ constexpr Index LargeBlock = 1 << 20; // samples: enough work for threads inside
 struct TopTwo
 {
   std::vector<float> First, Second;
-  std::vector<std::uint16_t> Winner;
 };
 
-/// Memory that large materials use one after another: taking it anew each time costs more than some of the steps.
+/// Memory that materials use one after another.
 struct Scratch
 {
-  std::vector<float> Differences, Residual, Area;
+  std::shared_ptr<BandMemory> Band = std::make_shared<BandMemory>();
+  std::vector<float> Differences, Residual, Area; // packed
+};
+
+/// As many of them as threads ask for at once.
+class ScratchPool
+{
+public:
+  template <typename Body>
+  void With(Body&& body)
+  {
+    std::unique_ptr<Scratch> scratch = this->Take();
+    body(*scratch);
+    const std::lock_guard<std::mutex> lock(this->Guard);
+    this->Free.push_back(std::move(scratch));
+  }
+
+private:
+  std::unique_ptr<Scratch> Take()
+  {
+    const std::lock_guard<std::mutex> lock(this->Guard);
+    if (this->Free.empty())
+    {
+      return std::make_unique<Scratch>();
+    }
+    std::unique_ptr<Scratch> scratch = std::move(this->Free.back());
+    this->Free.pop_back();
+    return scratch;
+  }
+  std::mutex Guard;
+  std::vector<std::unique_ptr<Scratch>> Free;
+};
+
+/// What is kept of a material from one round to the next, for its active samples alone.
+struct Field
+{
+  std::shared_ptr<const BandLayout> Layout;
+  std::vector<std::uint8_t> Sides; // 1 where the label is
+  std::vector<float> Phi;
+  std::vector<float> Integral; // of the corrections
+  std::optional<GaussianBlur> Blur;
 };
 
 class JointSmoother
@@ -71,45 +112,25 @@ public:
     }
   }
 
-  std::vector<TightenResult> Run()
+  std::vector<TightenVolumes> Run()
   {
-    const std::size_t count = this->Materials.size();
-    this->Bands.resize(count);
-    this->Sides.resize(count);
-    this->Integrals.resize(count);
-    this->Blurs.resize(count);
-    this->ForEachMaterial(0.0, 0.1, "Distance",
-      [this](std::size_t m, Scratch&)
-      {
-        const MaterialMask& material = this->Materials[m];
-        this->Bands[m] =
-          std::make_unique<NarrowBand>(material.Frame, material.Mask, BandReach(this->TightenOptionsOf(m)));
-        this->Sides[m] = this->Bands[m]->Pack();
-        this->Integrals[m].assign(this->Sides[m].size(), 0.0f);
-        this->Blurs[m] = this->BlurOf(m);
-      });
-    for (int round = 0; round < this->Options.Rounds; ++round)
+    this->Fields.resize(this->Materials.size());
+    this->ForEachMaterial(0.0, 0.1, "Distance", [this](std::size_t m, Scratch& scratch) { this->Begin(m, scratch); });
+    for (int round = 1; round <= this->Options.Rounds; ++round)
     {
-      const double start = 0.1 + 0.6 * round / this->Options.Rounds, length = 0.6 / this->Options.Rounds;
-      this->ForEachMaterial(start, start + 0.5 * length, "Smoothing",
-        [this](std::size_t m, Scratch&) { this->Flow(m, FlowSteps, RoundRedistance); });
+      const double start = 0.1 + 0.6 * (round - 1) / this->Options.Rounds, length = 0.6 / this->Options.Rounds;
       this->FindTopTwo();
-      this->ForEachMaterial(start + 0.5 * length, start + length, "Keeping volume",
-        [this](std::size_t m, Scratch& scratch) { this->Correct(m, scratch); });
+      this->ForEachMaterial(start, start + length, "Smoothing",
+        [this, round](std::size_t m, Scratch& scratch)
+        {
+          this->Correct(m, scratch);
+          this->Flow(m, round, scratch);
+        });
     }
-    this->ForEachMaterial(
-      0.7, 0.75, "Smoothing", [this](std::size_t m, Scratch&) { this->Flow(m, 1, FinalRedistance); });
     this->FindTopTwo();
-    std::vector<TightenResult> results(count);
-    this->ForEachMaterial(0.75, 1.0, "Tightening",
-      [&](std::size_t m, Scratch& scratch)
-      {
-        this->FindDifferences(m, scratch.Differences);
-        this->Bands[m]->Assign(scratch.Differences);
-        this->Bands[m]->Redistance(FinalRedistance);
-        results[m] = TightenBand(*this->Bands[m], this->Materials[m].Frame, this->TightenOptionsOf(m), Monitor());
-        this->Bands[m].reset();
-      });
+    std::vector<TightenVolumes> results(this->Materials.size());
+    this->ForEachMaterial(
+      0.7, 1.0, "Tightening", [&](std::size_t m, Scratch& scratch) { results[m] = this->Finish(m, scratch); });
     return results;
   }
 
@@ -137,35 +158,69 @@ private:
       }
       this->Progress.Step(
         start + (end - start) * double(m) / double(this->Materials.size()), text + (" of " + this->Materials[m].Name));
-      body(m, this->LargeScratch);
+      this->Scratches.With([&](Scratch& scratch) { body(m, scratch); });
     }
     this->Progress.Step(end, text);
     ParallelFor(0, Index(small.size()), 1,
       [&](Index first, Index last)
       {
-        Scratch scratch;
         for (Index n = first; n < last; ++n)
         {
-          body(small[n], scratch);
+          this->Scratches.With([&](Scratch& scratch) { body(small[n], scratch); });
         }
       });
   }
 
-  void Flow(std::size_t m, int steps, double redistance)
+  void Begin(std::size_t m, Scratch& scratch)
   {
-    for (int step = 0; step < steps; ++step)
-    {
-      this->Bands[m]->SmoothTowards(FlowTime, this->Sides[m], this->Options.Fidelity);
-    }
-    this->Bands[m]->Redistance(redistance);
+    const MaterialMask& material = this->Materials[m];
+    Field& field = this->Fields[m];
+    NarrowBand band(material.Frame, material.Mask, RoundBand, scratch.Band);
+    field.Layout = band.Layout();
+    field.Sides = field.Layout->PackSides(material.Mask);
+    field.Integral.assign(field.Sides.size(), 0.0f);
+    field.Blur.emplace(*field.Layout, ResidualWidth);
+    band.Pack(field.Phi);
+    this->Flow(m, 0, scratch);
   }
 
-  GaussianBlur BlurOf(std::size_t m) const
+  /// The flow after `round` corrections; the last one has nothing after it that would need a long step.
+  void Flow(std::size_t m, int round, Scratch& scratch)
   {
-    const Lattice& frame = this->Materials[m].Frame;
-    Lattice inVoxels = frame;
-    inVoxels.Spacing /= frame.VoxelSize();
-    return GaussianBlur(inVoxels, ResidualWidth, this->Bands[m]->ActiveRows());
+    Field& field = this->Fields[m];
+    const bool last = round == this->Options.Rounds;
+    std::vector<float>& sides = scratch.Area;
+    sides.resize(field.Sides.size());
+    std::transform(
+      field.Sides.begin(), field.Sides.end(), sides.begin(), [](std::uint8_t side) { return side ? 1.0f : -1.0f; });
+    NarrowBand band(field.Layout, RoundBand, field.Phi, scratch.Band);
+    for (int step = 0; step < (last ? 1 : FlowSteps); ++step)
+    {
+      band.SmoothTowards(FlowTime, sides, this->Options.Fidelity);
+    }
+    band.Redistance(last ? FinalRedistance : RoundRedistance);
+    band.Pack(field.Phi);
+  }
+
+  TightenVolumes Finish(std::size_t m, Scratch& scratch)
+  {
+    const MaterialMask& material = this->Materials[m];
+    const TightenOptions options = this->TightenOptionsOf(m);
+    this->FindDifferences(m, scratch.Differences);
+    NarrowBand band(this->Fields[m].Layout, RoundBand, scratch.Differences, scratch.Band);
+    this->Fields[m] = Field();
+    band.Redistance(FinalRedistance);
+    band.Widen(material.Mask, BandReach(options));
+    return TightenBand(band, material.Frame, options, Monitor(), material.Distance);
+  }
+
+  /// The sample of the working lattice that a sample of a material's grown lattice is.
+  Index InWorking(std::size_t m, Index sample) const
+  {
+    const auto& offset = this->Offsets[m];
+    const std::array<int, 3> at = this->Fields[m].Layout->Frame().Coordinates(sample);
+    constexpr Index margin = BandLayout::Margin;
+    return this->Working.At(offset[0] + at[0] - margin, offset[1] + at[1] - margin, offset[2] + at[2] - margin);
   }
 
   void FindTopTwo()
@@ -173,7 +228,6 @@ private:
     const float lowest = std::numeric_limits<float>::lowest();
     this->Top.First.resize(this->Working.Size());
     this->Top.Second.resize(this->Working.Size());
-    this->Top.Winner.resize(this->Working.Size());
     const Index slice = Index(this->Working.Dims[0]) * this->Working.Dims[1];
     ParallelFor(0, this->Working.Dims[2], 1,
       [&](Index first, Index last)
@@ -182,101 +236,100 @@ private:
         {
           std::fill_n(this->Top.First.begin() + k * slice, slice, lowest);
           std::fill_n(this->Top.Second.begin() + k * slice, slice, lowest);
-          std::fill_n(this->Top.Winner.begin() + k * slice, slice, std::uint16_t(0xFFFF));
           for (std::size_t m = 0; m < this->Materials.size(); ++m)
           {
-            const auto& offset = this->Offsets[m];
-            const auto& dims = this->Materials[m].Frame.Dims;
-            if (k < offset[2] || k >= offset[2] + dims[2])
+            const Index own = k - this->Offsets[m][2];
+            if (own >= 0 && own < this->Materials[m].Frame.Dims[2])
             {
-              continue;
-            }
-            for (Index j = 0; j < dims[1]; ++j)
-            {
-              this->Compete(m, this->Bands[m]->Row(j, k - offset[2]), this->Working.At(offset[0], offset[1] + j, k));
+              this->Compete(m, own + BandLayout::Margin);
             }
           }
         }
       });
   }
 
-  void Compete(std::size_t m, const float* values, Index start)
+  /// A material's active samples in slice k of its grown lattice. Where a field is the largest without being active,
+  /// no other field is active.
+  void Compete(std::size_t m, Index k)
   {
-    for (Index i = 0; i < this->Materials[m].Frame.Dims[0]; ++i)
+    const Field& field = this->Fields[m];
+    const BandLayout& layout = *field.Layout;
+    const float* values = field.Phi.data() + layout.Slice(k).Packed;
+    for (Index r = layout.Slice(k).Run; r < layout.Slice(k + 1).Run; ++r)
     {
-      const float value = values[i];
-      float &first = this->Top.First[start + i], &second = this->Top.Second[start + i];
-      if (value > first)
+      const BandLayout::Run& run = layout.Runs()[r];
+      const Index start = this->InWorking(m, run.First);
+      float* const first = this->Top.First.data() + start;
+      float* const second = this->Top.Second.data() + start;
+#pragma omp simd
+      for (int i = 0; i < run.Count; ++i)
       {
-        second = first;
-        first = value;
-        this->Top.Winner[start + i] = std::uint16_t(m);
+        const float loser = values[i] > first[i] ? first[i] : values[i];
+        second[i] = second[i] > loser ? second[i] : loser;
+        first[i] = first[i] > values[i] ? first[i] : values[i];
       }
-      else if (value > second)
-      {
-        second = value;
-      }
+      values += run.Count;
     }
   }
 
   /// Half the difference to the largest of the other fields, of the active samples.
   void FindDifferences(std::size_t m, std::vector<float>& differences) const
   {
-    const NarrowBand& band = *this->Bands[m];
-    const auto& offset = this->Offsets[m];
-    const float end = float(BandReach(this->TightenOptionsOf(m)));
-    differences.resize(this->Sides[m].size());
-    band.ForActive(
-      [&](Index packed, Index i, Index j, Index k, Index count)
+    const Field& field = this->Fields[m];
+    const float end = float(RoundBand);
+    differences.resize(field.Phi.size());
+    field.Layout->ForRuns(
+      [&](Index sample, Index count, Index packed)
       {
-        const float* const own = band.Row(j, k) + i;
-        const Index at = this->Working.At(offset[0] + i, offset[1] + j, offset[2] + k);
+        const Index at = this->InWorking(m, sample);
+        const float *const first = this->Top.First.data() + at, *const second = this->Top.Second.data() + at;
+        const float* const own = field.Phi.data() + packed;
+        float* const to = differences.data() + packed;
+#pragma omp simd
         for (Index n = 0; n < count; ++n)
         {
-          const float other = this->Top.Winner[at + n] == m ? this->Top.Second[at + n] : this->Top.First[at + n];
-          differences[packed + n] = 0.5f * (own[n] - std::max(other, -end));
+          // The largest field is one's own, or another that is as large, which is the second then.
+          const float other = own[n] < first[n] ? first[n] : second[n];
+          to[n] = 0.5f * (own[n] - (other > -end ? other : -end));
         }
       });
   }
 
   void Correct(std::size_t m, Scratch& scratch)
   {
-    const Lattice& frame = this->Materials[m].Frame;
-    NarrowBand& band = *this->Bands[m];
-    this->FindDifferences(m, scratch.Differences);
-    this->Blurs[m]->Clear(scratch.Residual);
-    this->Blurs[m]->Clear(scratch.Area);
-    const float* const sides = this->Sides[m].data();
-    band.ForActive(
-      [&](Index packed, Index i, Index j, Index k, Index count)
+    Field& field = this->Fields[m];
+    const BandLayout& layout = *field.Layout;
+    const Index count = layout.NumberOfActive();
+    std::vector<float>&differences = scratch.Differences, &residual = scratch.Residual, &area = scratch.Area;
+    this->FindDifferences(m, differences);
+    residual.resize(differences.size());
+    area.resize(differences.size());
+    ParallelFor(0, count, 0,
+      [&](Index first, Index last)
       {
-        const Index at = frame.At(i, j, k);
-        for (Index n = 0; n < count; ++n)
+        for (Index n = first; n < last; ++n)
         {
-          const float d = scratch.Differences[packed + n];
-          const float inside = std::clamp(0.5f + d, 0.0f, 1.0f);
-          scratch.Residual[at + n] = (sides[packed + n] > 0 ? 1.0f : 0.0f) - inside;
-          scratch.Area[at + n] = std::abs(d) < 0.5f ? 1.0f : 0.0f;
+          const float d = differences[n], share = 0.5f + d;
+          const float inside = share < 0.0f ? 0.0f : share > 1.0f ? 1.0f : share;
+          residual[n] = (field.Sides[n] ? 1.0f : 0.0f) - inside;
+          area[n] = std::abs(d) < 0.5f ? 1.0f : 0.0f;
         }
       });
-    this->Blurs[m]->Apply(scratch.Residual);
-    this->Blurs[m]->Apply(scratch.Area);
-    float* const integral = this->Integrals[m].data();
-    band.ForActive(
-      [&](Index packed, Index i, Index j, Index k, Index count)
+    float* const box = scratch.Band->Phi.Sized(layout.Frame().Size());
+    field.Blur->Apply(layout, residual.data(), box);
+    field.Blur->Apply(layout, area.data(), box);
+    ParallelFor(0, count, 0,
+      [&](Index first, Index last)
       {
-        const Index at = frame.At(i, j, k);
-        for (Index n = 0; n < count; ++n)
+        for (Index n = first; n < last; ++n)
         {
           const float correction =
-            std::clamp(CorrectionGain * scratch.Residual[at + n] / (scratch.Area[at + n] + LeastArea),
-              -LargestCorrection, LargestCorrection);
-          float& sum = integral[packed + n];
-          scratch.Differences[packed + n] += correction + sum;
+            std::clamp(CorrectionGain * residual[n] / (area[n] + LeastArea), -LargestCorrection, LargestCorrection);
+          float& sum = field.Integral[n];
+          field.Phi[n] = differences[n] + (correction + sum);
           sum = std::clamp(sum + IntegralGain * correction, -LargestIntegral, LargestIntegral);
         }
       });
-    band.Assign(scratch.Differences);
   }
 
   const Lattice& Working;
@@ -284,12 +337,9 @@ private:
   const JointSmoothingOptions& Options;
   const Monitor& Progress;
   std::vector<std::array<Index, 3>> Offsets;
-  std::vector<std::unique_ptr<NarrowBand>> Bands;
-  std::vector<std::vector<float>> Sides;     // the first distances of the active samples: > 0 where the label is
-  std::vector<std::vector<float>> Integrals; // of the corrections
-  std::vector<std::optional<GaussianBlur>> Blurs;
+  std::vector<Field> Fields;
   TopTwo Top;
-  Scratch LargeScratch;
+  ScratchPool Scratches;
 };
 
 void CheckOptions(const std::vector<MaterialMask>& materials, const JointSmoothingOptions& options)
@@ -314,7 +364,7 @@ void CheckOptions(const std::vector<MaterialMask>& materials, const JointSmoothi
 }
 }
 
-std::vector<TightenResult> SmoothJointly(const Lattice& working, const std::vector<MaterialMask>& materials,
+std::vector<TightenVolumes> SmoothJointly(const Lattice& working, const std::vector<MaterialMask>& materials,
   const JointSmoothingOptions& options, const Monitor& monitor)
 {
   CheckOptions(materials, options); // here: small materials run in threads, which must not throw

@@ -15,8 +15,9 @@ struct MaterialMask
 {
   std::string Name; ///< for progress texts
   Lattice Frame;
-  const float* Mask = nullptr; ///< 1 inside, 0 outside
-  double Radius = 0.7;         ///< voxels, of the final tightening
+  const std::uint8_t* Mask = nullptr; ///< 1 inside, 0 outside
+  double Radius = 0.7;                ///< voxels, of the final tightening
+  float* Distance = nullptr;          ///< gets the result, as Tighten gives it
 };
 
 struct JointSmoothingOptions
@@ -37,9 +38,9 @@ struct JointSmoothingOptions
 /// integrated, so that the flow's steady shrinkage is cancelled. At last each material is tightened (see Tighten) with
 /// a small radius.
 ///
-/// Returns the results in the order of the materials. Throws std::invalid_argument when a frame's samples are not those
+/// Returns the volumes in the order of the materials. Throws std::invalid_argument when a frame's samples are not those
 /// of the working lattice and for options out of range, Aborted when the monitor asks to stop.
-std::vector<TightenResult> SmoothJointly(const Lattice& working, const std::vector<MaterialMask>& materials,
+std::vector<TightenVolumes> SmoothJointly(const Lattice& working, const std::vector<MaterialMask>& materials,
   const JointSmoothingOptions& options, const Monitor& monitor);
 }
 

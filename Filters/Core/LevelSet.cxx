@@ -38,7 +38,8 @@ double BandReach(const TightenOptions& options)
   return std::max(options.Band, options.Radius + 3.0);
 }
 
-TightenResult TightenBand(NarrowBand& band, const Lattice& frame, const TightenOptions& options, const Monitor& monitor)
+TightenVolumes TightenBand(
+  NarrowBand& band, const Lattice& frame, const TightenOptions& options, const Monitor& monitor, float* distance)
 {
   if (options.Radius > 0)
   {
@@ -53,19 +54,17 @@ TightenResult TightenBand(NarrowBand& band, const Lattice& frame, const TightenO
     band.Redistance(BandReach(options));
   }
   const double voxelVolume = frame.VoxelVolume();
-  TightenResult result;
-  result.MaskVolume = double(band.NumberOfInsideSamples()) * voxelVolume;
-  result.TightVolume = band.Volume() * voxelVolume;
-  result.Distance = band.Distance(frame.VoxelSize(), options.Band * frame.VoxelSize());
-  return result;
+  band.Distance(frame.VoxelSize(), options.Band * frame.VoxelSize(), distance);
+  return { double(band.NumberOfInsideSamples()) * voxelVolume, band.Volume() * voxelVolume };
 }
 
-TightenResult Tighten(const Lattice& frame, const float* mask, const TightenOptions& options, const Monitor& monitor)
+TightenVolumes Tighten(const Lattice& frame, const std::uint8_t* mask, const TightenOptions& options,
+  const Monitor& monitor, float* distance)
 {
   CheckTightenOptions(options);
   if (frame.Size() == 0)
   {
-    return TightenResult();
+    return TightenVolumes();
   }
   const double reach = BandReach(options);
   monitor.Step(0.0, "Distance");
@@ -74,6 +73,6 @@ TightenResult Tighten(const Lattice& frame, const float* mask, const TightenOpti
   monitor.Step(0.1, "Antialiasing");
   band.SmoothKeepingSides(IterationTime * options.AntialiasIterations);
   band.Redistance(reach);
-  return TightenBand(band, frame, options, monitor.Part(0.25, 1.0));
+  return TightenBand(band, frame, options, monitor.Part(0.25, 1.0), distance);
 }
 }

@@ -17,11 +17,11 @@ struct TightenOptions
   double Band = 4.0;            ///< voxels: half width of the narrow band; beyond it the distance is +-Band
 };
 
-struct TightenResult
+/// World length cubed.
+struct TightenVolumes
 {
-  std::vector<float> Distance; ///< signed, world length, > 0 inside, clamped to +-Band
-  double MaskVolume = 0.0;     ///< world length cubed
-  double TightVolume = 0.0;    ///< the volume inside the zero level, world length cubed; 0: nothing is left
+  double Mask = 0.0;
+  double Tight = 0.0; ///< inside the zero level; 0: nothing is left
 };
 
 class NarrowBand;
@@ -33,10 +33,11 @@ void CheckTightenOptions(const TightenOptions& options);
 double BandReach(const TightenOptions& options);
 
 /// Steps 3 and 4 of Tighten, on a band of BandReach(options) whose function is a distance.
-TightenResult TightenBand(
-  NarrowBand& band, const Lattice& frame, const TightenOptions& options, const Monitor& monitor);
+TightenVolumes TightenBand(
+  NarrowBand& band, const Lattice& frame, const TightenOptions& options, const Monitor& monitor, float* distance);
 
 /// Signed distance of a mask (1 inside, 0 outside) whose border samples are outside, or inside for a background mask.
+/// `distance` gets a value for each sample: world length, > 0 inside, clamped to +-Band.
 ///
 /// 1. Exact signed distance in a narrow band (SignedDistance).
 /// 2. Antialiasing (Whitaker 2000): curvature flow that keeps every sample on its side; re-distancing.
@@ -49,10 +50,11 @@ TightenResult TightenBand(
 /// 4. Re-distancing.
 /// Spacing enters every step; with unequal spacings an iteration is cut into as many stable steps as it needs.
 ///
-/// What is thinner than 2 Radius vanishes, small materials with it: compare TightVolume with MaskVolume.
+/// What is thinner than 2 Radius vanishes, small materials with it: compare the volumes.
 /// An empty or full mask gives -Band or +Band everywhere.
 /// Throws std::invalid_argument for options out of range, Aborted when the monitor asks to stop.
-TightenResult Tighten(const Lattice& frame, const float* mask, const TightenOptions& options, const Monitor& monitor);
+TightenVolumes Tighten(const Lattice& frame, const std::uint8_t* mask, const TightenOptions& options,
+  const Monitor& monitor, float* distance);
 }
 
 #endif

@@ -190,16 +190,15 @@ void ForBox(const std::vector<MaterialId>& ids, const Lattice& lattice, Material
 }
 }
 
-std::vector<float> MaskOf(const std::vector<MaterialId>& ids, const Lattice& lattice, MaterialId id,
-  MaterialId background, const Box& box, const MaskOptions& options)
+void MaskOf(const std::vector<MaterialId>& ids, const Lattice& lattice, MaterialId id, MaterialId background,
+  const Box& box, const MaskOptions& options, std::uint8_t* mask)
 {
   Lattice block = lattice;
   block.Dims = { box[1] - box[0] + 1, box[3] - box[2] + 1, box[5] - box[4] + 1 };
-  std::vector<float> mask(static_cast<std::size_t>(block.Size()));
   if (!(options.OpeningRadius > 0) && !(options.ClosingRadius > 0))
   {
-    ForBox(ids, lattice, id, background, box, [&](Index at, bool inside) { mask[at] = inside; });
-    return mask;
+    ForBox(ids, lattice, id, background, box, [mask](Index at, bool inside) { mask[at] = inside; });
+    return;
   }
   // Balls around samples of the box reach beyond it.
   Box wide = box;
@@ -227,6 +226,5 @@ std::vector<float> MaskOf(const std::vector<MaterialId>& ids, const Lattice& lat
     const auto c = block.Coordinates(at);
     mask[at] = sides[grown.At(c[0] + margin[0], c[1] + margin[1], c[2] + margin[2])];
   }
-  return mask;
 }
 }

@@ -31,9 +31,9 @@ struct MaskOptions
 };
 
 /// 1 where a sample has the id, else 0, in a box that may reach beyond the lattice, where all samples have the id
-/// `background`. Opened and closed by balls as asked for.
-std::vector<float> MaskOf(const std::vector<MaterialId>& ids, const Lattice& lattice, MaterialId id,
-  MaterialId background, const Box& box, const MaskOptions& options);
+/// `background`. Opened and closed by balls as asked for. `mask` has room for the box, x fastest.
+void MaskOf(const std::vector<MaterialId>& ids, const Lattice& lattice, MaterialId id, MaterialId background,
+  const Box& box, const MaskOptions& options, std::uint8_t* mask);
 }
 
 #endif

@@ -3,34 +3,77 @@
 #ifndef LabelMesh_Core_NarrowBand_h
 #define LabelMesh_Core_NarrowBand_h
 
-#include "DistanceTransform.h"
-#include "GaussianBlur.h"
-#include "Lattice.h"
-#include "Parallel.h"
+#include "BandLayout.h"
 
+#include <memory>
 #include <vector>
 
 namespace LabelMesh
 {
-/// A function phi (> 0 inside) of which only the samples with |phi| < Band, the active ones, change. Others stay
-/// +-Band.
+/// Memory that bands use one after another: taking it anew each time costs more than some of the steps. As large as the
+/// largest box so far.
+class BandMemory
+{
+public:
+  /// An array whose values are not set.
+  class Array
+  {
+  public:
+    float* Sized(Index size)
+    {
+      if (size > this->Size)
+      {
+        this->Values.reset(); // before the larger one is taken
+        this->Values.reset(new float[static_cast<std::size_t>(size)]);
+        this->Size = size;
+      }
+      return this->Values.get();
+    }
+    float* Data() const { return this->Values.get(); }
+    void Swap(Array& other)
+    {
+      this->Values.swap(other.Values);
+      std::swap(this->Size, other.Size);
+    }
+
+  private:
+    std::unique_ptr<float[]> Values;
+    Index Size = 0;
+  };
+
+  Array Phi, Next, Third; ///< a value for every sample of the box
+  Array Signs;            ///< packed
+  Sides Inside;           ///< of every sample of the box
+};
+
+/// A function phi (> 0 inside) of which only the samples with |phi| < band, the active ones, change. Others stay
+/// +-band.
 ///
-/// Lengths are in *voxels*: the spacing is divided by Lattice::VoxelSize(). The lattice is grown by a margin on
-/// every side, which copies the nearest sample of the lattice after every step: the flows see no edge.
-/// Samples lie densely in memory; the active ones are runs along x, so that the inner loops are loops over arrays.
-/// Every step reads one array and writes the other (Jacobi): the same bits for any number of threads.
+/// Lengths are in *voxels*: the spacing is divided by Lattice::VoxelSize(). Samples lie densely in memory while a band
+/// is worked on; the active ones are runs along x, so that the inner loops are loops over arrays. Between two visits a
+/// band can be kept as its layout and its packed values. Every step reads one array and writes the other (Jacobi): the
+/// same bits for any number of threads.
 class NarrowBand
 {
 public:
   /// The signed distance of a mask (see SignedDistance) as phi.
-  NarrowBand(const Lattice& frame, const float* mask, double band);
+  NarrowBand(const Lattice& frame, const std::uint8_t* mask, double band,
+    std::shared_ptr<BandMemory> memory = std::make_shared<BandMemory>());
+  /// A band that was kept. Only its flows and Redistance can be used: samples far from the active ones have no value.
+  NarrowBand(std::shared_ptr<const BandLayout> layout, double band, const std::vector<float>& packed,
+    std::shared_ptr<BandMemory> memory);
 
-  Index NumberOfInsideSamples() const { return this->Inside; } ///< of the mask
+  const std::shared_ptr<const BandLayout>& Layout() const { return this->Where; }
+  Index NumberOfInsideSamples() const { return this->Where->NumberOfInside(); } ///< of the mask
+
+  /// Makes all samples active that are so near that a band of `band` voxels has them, on the sides of the mask that the
+  /// band was made of; they begin at +-band.
+  void Widen(const std::uint8_t* mask, double band);
 
   /// phi_t = curvature |grad phi| for `time` (voxels squared). No sample changes its side: |phi| stays at least 0.05 of
   /// the smallest spacing. Clamping at 0 would make ties between materials.
   void SmoothKeepingSides(double time);
-  /// The same flow, between two bounds that Pack() gave.
+  /// The same flow, between two bounds that Opening() and Closing() gave. Samples whose bounds are equal stay.
   void SmoothBetween(double time, const std::vector<float>& lower, const std::vector<float>& upper);
   /// The same flow, in which a sample that has left its side of `sides` (packed; the sign counts) is pushed back with a
   /// constant force, up to 0.05: a sample is given up only where keeping it takes more curvature (1 / voxel) than
@@ -49,7 +92,8 @@ public:
   /// fit inside and are no smaller, O(x) = max of phi(y) - |x - y| over the y with phi(y) >= radius. Such y are
   /// samples, and points between two samples where the slopes of phi on both sides meet, so that plates two voxels
   /// thick keep theirs. Where O differs from phi by less than the samples' coarseness explains (0.1 for cubic voxels),
-  /// it is phi. phi must be a distance, up to BallReach(radius) from the zero set.
+  /// it is phi. phi must be a distance, up to BallReach(radius) from the zero set. More than BallReach(radius) - 0.7
+  /// from the zero set the bound is phi itself: what happens there does not reach the zero set.
   std::vector<float> Opening(double radius) const;
   static double BallReach(double radius) { return radius + 1.7; }
   /// The same of -phi, turned over: the closing as an upper bound.
@@ -57,90 +101,39 @@ public:
 
   /// The active samples, one after another, and back.
   std::vector<float> Pack() const;
+  void Pack(std::vector<float>& packed) const;
   void Assign(const std::vector<float>& packed);
-  /// phi along x at (0, j, k) of the lattice given at first.
-  const float* Row(Index j, Index k) const { return this->Phi.data() + this->Frame.At(Margin, j + Margin, k + Margin); }
-  /// Calls body(packed, i, j, k, count) in parallel for runs of active samples along x, which start at (i, j, k) of the
-  /// lattice given at first and at number `packed` of the packed samples.
-  template <typename Body>
-  void ForActive(Body&& body) const
-  {
-    this->ForRuns(
-      [&](const Run& run)
-      {
-        const std::array<int, 3> at = this->Frame.Coordinates(run.First);
-        body(run.Packed, Index(at[0] - Margin), Index(at[1] - Margin), Index(at[2] - Margin), run.Count);
-      });
-  }
-
-  /// From the first to the last active sample of every row of the lattice given at first.
-  std::vector<RowRange> ActiveRows() const;
 
   /// Volume inside the zero set in voxels (of volume one).
   double Volume() const;
   /// phi * unit, clamped to +-limit, on the lattice given at first.
-  std::vector<float> Distance(double unit, double limit) const;
+  void Distance(double unit, double limit, float* distance) const;
 
 private:
-  static constexpr int Margin = 2; // samples: the widest stencil
-
-  /// Active samples [First, First + Count) of phi; the first one is active sample number Packed.
-  struct Run
-  {
-    Index First = 0;
-    Index Packed = 0;
-    Index Count = 0;
-  };
-  struct Ghost
-  {
-    Index To = 0;
-    Index From = 0;
-  };
-
-  std::vector<float> UnionOfBalls(double radius, float sign) const;
-  void FindRuns();
-  void FindGhosts();
-  void FindTargets();
   struct Disc;
   class DiscStamp;
+
+  std::vector<float> UnionOfBalls(double radius, float sign) const;
   std::vector<std::vector<Disc>> FindDiscs() const;
-  /// Calls body(run) for every run, in parallel.
-  template <typename Body>
-  void ForRuns(Body&& body) const
-  {
-    ParallelFor(0, Index(this->Chunks.size()) - 1, 0,
-      [&](Index first, Index last)
-      {
-        for (Index r = this->Chunks[first]; r < this->Chunks[last]; ++r)
-        {
-          body(this->Runs[r]);
-        }
-      });
-  }
-  /// One step of the flow: body(run) writes Next; then it becomes Phi.
+  void FindTargets();
+  /// Both arrays get +-band around the active samples.
+  void FillRims();
+  /// All of both arrays.
+  void FillSides(const std::uint8_t* mask);
+  /// One step of the flow: body(runs, count, packed) writes Next; then it becomes Phi.
   template <typename Body>
   void Advance(Body&& body)
   {
-    this->ForRuns(body);
-    for (const Ghost& ghost : this->Ghosts)
-    {
-      this->Next[ghost.To] = this->Next[ghost.From];
-    }
-    this->Phi.swap(this->Next);
+    this->Where->ForPieces(body);
+    this->Finish();
   }
-  template <typename Clamp>
-  void Smooth(double time, Clamp&& clamp);
+  void Finish();
 
-  Lattice Frame; ///< grown, in voxels
+  std::shared_ptr<const BandLayout> Where;
+  std::shared_ptr<BandMemory> Memory;
   float End = 0; ///< the band's
-  Index Active = 0;
-  Index Inside = 0;
-  Index Deep = 0; ///< samples inside the mask that are not active
-  std::vector<float> Phi, Next;
-  std::vector<Run> Runs;
-  std::vector<Index> Chunks; ///< pieces of work: runs [Chunks[c], Chunks[c + 1])
-  std::vector<Ghost> Ghosts;
-  std::vector<float> Signs; ///< of the active samples while re-distancing; 0: holds its value
+  float* Phi = nullptr;
+  float* Next = nullptr;
 };
 }
 

@@ -5,6 +5,7 @@
 #include "NarrowBand.h"
 
 #include "Parallel.h"
+#include "VectorLoops.h"
 #include "ZeroCrossing.h"
 
 namespace LabelMesh
@@ -22,129 +23,206 @@ struct NarrowBand::Disc
   std::array<float, 3> Normal;
 };
 
+namespace
+{
+/// 1 for the samples beside the zero set, else 0.
+LABELMESH_FOR_ANY_X86
+void FindBeside(const float* __restrict row, Index count, Index y, Index z, std::int32_t* __restrict beside)
+{
+  ForLanes(count,
+    [&](auto lanes, Index i)
+    {
+#pragma omp simd
+      for (int l = 0; l < decltype(lanes)::Size; ++l)
+      {
+        const float* p = row + i + l;
+        const int side = p[0] > 0;
+        beside[i + l] = ((p[1] > 0) ^ side) | ((p[-1] > 0) ^ side) | ((p[y] > 0) ^ side) | ((p[-y] > 0) ^ side) |
+          ((p[z] > 0) ^ side) | ((p[-z] > 0) ^ side);
+      }
+    });
+}
+}
+
 /// The discs, by slice of their samples.
 std::vector<std::vector<NarrowBand::Disc>> NarrowBand::FindDiscs() const
 {
-  const ZeroCrossing crossing(this->Frame);
-  std::vector<std::vector<Disc>> chunks(this->Chunks.size());
-  ParallelFor(0, Index(this->Chunks.size()) - 1, 0,
-    [&](Index first, Index last)
+  const Lattice& frame = this->Where->Frame();
+  const ZeroCrossing crossing(frame);
+  const Index y = frame.Dims[0], z = y * frame.Dims[1];
+  std::vector<std::vector<Disc>> slices(static_cast<std::size_t>(frame.Dims[2]));
+  ParallelFor(0, frame.Dims[2], 1,
+    [&](Index firstSlice, Index lastSlice)
     {
-      for (Index c = first; c < last; ++c)
+      std::vector<std::int32_t> beside(static_cast<std::size_t>(frame.Dims[0]));
+      for (Index k = firstSlice; k < lastSlice; ++k)
       {
-        for (Index r = this->Chunks[c]; r < this->Chunks[c + 1]; ++r)
+        for (Index r = this->Where->Slice(k).Run; r < this->Where->Slice(k + 1).Run; ++r)
         {
-          const Run& run = this->Runs[r];
-          auto at = this->Frame.Coordinates(run.First);
-          for (Index i = run.First; i < run.First + run.Count; ++i, ++at[0])
+          const BandLayout::Run& run = this->Where->Runs()[r];
+          const float* const p = this->Phi + run.First;
+          FindBeside(p, run.Count, y, z, beside.data());
+          const std::array<int, 3> at = frame.Coordinates(run.First);
+          for (int i = 0; i < run.Count; ++i)
           {
             std::array<float, 3> slopes;
-            if (crossing.Slopes(&this->Phi[i], slopes.data()))
+            if (beside[i] && crossing.Slopes(p + i, slopes.data()))
             {
               const float slope = std::sqrt(slopes[0] * slopes[0] + slopes[1] * slopes[1] + slopes[2] * slopes[2]);
-              Disc disc{ at, {}, {} };
+              Disc disc{ { at[0] + i, at[1], at[2] }, {}, {} };
               for (int a = 0; a < 3 && slope > 0; ++a)
               {
                 disc.Normal[a] = slopes[a] / slope;
-                disc.Center[a] = -this->Phi[i] / slope * disc.Normal[a];
+                disc.Center[a] = -p[i] / slope * disc.Normal[a];
               }
-              chunks[c].push_back(disc);
+              slices[k].push_back(disc);
             }
           }
         }
       }
     });
-  std::vector<std::vector<Disc>> slices(static_cast<std::size_t>(this->Frame.Dims[2]));
-  for (const auto& chunk : chunks)
-  {
-    for (const Disc& disc : chunk)
-    {
-      slices[disc.Sample[2]].push_back(disc);
-    }
-  }
   return slices;
 }
 
-/// Writes the squared distances to a disc into the rows of samples around it.
+namespace
+{
+/// A disc, and the part of a row of samples that its squared distances go to.
+struct DiscRow
+{
+  float Dy, Dz;            ///< of the row, from the disc's centre
+  float Cx;                ///< the centre, from the disc's sample
+  float Nx, Ny, Nz;        ///< normal
+  float Hx, Hx2, Hy2, Hz2; ///< spacing and its squares
+  int First, Last;         ///< samples of the row, from the disc's sample
+};
+
+[[gnu::always_inline]] inline float SquaredDistance(const DiscRow& row, float across, int i)
+{
+  const float dx = row.Hx * float(i) - row.Cx;
+  const float away = dx * row.Nx + across;
+  const float tx = dx - away * row.Nx, ty = row.Dy - away * row.Ny, tz = row.Dz - away * row.Nz;
+  const float beside2 = tx * tx + ty * ty + tz * tz + 1e-12f;
+  const float sample2 = (row.Hx2 * tx * tx + row.Hy2 * ty * ty + row.Hz2 * tz * tz) / beside2; // its length that way
+  const float beyond = std::sqrt(beside2) - DiscRadius * std::sqrt(sample2);
+  const float outside = beyond > 0 ? beyond : 0.0f;
+  return away * away + outside * outside;
+}
+
+/// to = min(to, squared distance). `room`: samples that may be read and written from row.First on.
+[[gnu::always_inline]] inline void StampRow(const DiscRow& row, float* __restrict to, int room)
+{
+  const float across = row.Dy * row.Ny + row.Dz * row.Nz;
+  for (int first = row.First; first <= row.Last; first += 8, room -= 8)
+  {
+    if (room >= 8)
+    {
+      // A whole vector; what is beyond the last sample stays.
+      float distance2[8];
+#pragma omp simd
+      for (int l = 0; l < 8; ++l)
+      {
+        distance2[l] = SquaredDistance(row, across, first + l);
+      }
+#pragma omp simd
+      for (int l = 0; l < 8; ++l)
+      {
+        const float reached = first + l <= row.Last ? distance2[l] : 1e30f;
+        const float old = to[first + l];
+        to[first + l] = old < reached ? old : reached;
+      }
+    }
+    else
+    {
+      for (int i = first; i <= row.Last; ++i)
+      {
+        const float reached = SquaredDistance(row, across, i);
+        to[i] = to[i] < reached ? to[i] : reached;
+      }
+    }
+  }
+}
+}
+
+/// Writes the squared distances to a disc into the samples around it.
 class NarrowBand::DiscStamp
 {
 public:
   DiscStamp(const Lattice& frame, double reach)
     : Frame(frame)
-    , Reach(reach)
     , Hx(float(frame.Spacing[0]))
     , Hy(float(frame.Spacing[1]))
     , Hz(float(frame.Spacing[2]))
+    , Rows(BallOffsets(frame, reach))
   {
   }
 
-  /// The row at j, k from the disc's sample.
-  void Row(const Disc& disc, int j, int k, std::vector<float>& squared) const
-  {
-    const auto& [x, y, z] = disc.Sample;
-    const double left = this->Reach * this->Reach - std::pow(this->Hy * j, 2) - std::pow(this->Hz * k, 2);
-    const int reach = left < 0 ? -1 : int(std::sqrt(left) / this->Hx);
-    const int first = std::max(-reach, -x), last = std::min(reach, this->Frame.Dims[0] - 1 - x);
-    const auto [nx, ny, nz] = disc.Normal;
-    const float dy = this->Hy * float(j) - disc.Center[1], dz = this->Hz * float(k) - disc.Center[2];
-    const float cx = disc.Center[0], across = dy * ny + dz * nz;
-    const float hx = this->Hx, hx2 = hx * hx, hy2 = this->Hy * this->Hy, hz2 = this->Hz * this->Hz;
-    float* __restrict to = squared.data() + this->Frame.At(x, y + j, z + k);
-    for (int i = first; i <= last; ++i)
-    {
-      const float dx = hx * float(i) - cx;
-      const float away = dx * nx + across;
-      const float tx = dx - away * nx, ty = dy - away * ny, tz = dz - away * nz;
-      const float beside2 = tx * tx + ty * ty + tz * tz + 1e-12f;
-      const float sample2 = (hx2 * tx * tx + hy2 * ty * ty + hz2 * tz * tz) / beside2; // its length in that direction
-      const float beyond = std::sqrt(beside2) - DiscRadius * std::sqrt(sample2);
-      const float outside = beyond > 0 ? beyond : 0.0f;
-      const float distance2 = away * away + outside * outside;
-      to[i] = to[i] < distance2 ? to[i] : distance2;
-    }
-  }
+  /// Samples of the slices from k0 up to k1.
+  void Stamp(const std::vector<Disc>& discs, int k0, int k1, float* squared) const;
 
 private:
   const Lattice& Frame;
-  double Reach;
   float Hx, Hy, Hz;
+  std::vector<RowOffset> Rows;
 };
+
+LABELMESH_FOR_ANY_X86
+void NarrowBand::DiscStamp::Stamp(const std::vector<Disc>& discs, int k0, int k1, float* squared) const
+{
+  const int width = this->Frame.Dims[0];
+  DiscRow row{ 0, 0, 0, 0, 0, 0, this->Hx, this->Hx * this->Hx, this->Hy * this->Hy, this->Hz * this->Hz, 0, 0 };
+  for (const Disc& disc : discs)
+  {
+    const auto& [x, y, z] = disc.Sample;
+    row.Cx = disc.Center[0];
+    row.Nx = disc.Normal[0];
+    row.Ny = disc.Normal[1];
+    row.Nz = disc.Normal[2];
+    for (const RowOffset& offset : this->Rows)
+    {
+      const int j = y + offset.J, k = z + offset.K;
+      if (k >= k0 && k < k1 && j >= 0 && j < this->Frame.Dims[1])
+      {
+        row.Dy = this->Hy * float(offset.J) - disc.Center[1];
+        row.Dz = this->Hz * float(offset.K) - disc.Center[2];
+        row.First = std::max(-offset.Reach, -x);
+        row.Last = std::min(offset.Reach, width - 1 - x);
+        StampRow(row, squared + this->Frame.At(x, j, k), width - (x + row.First));
+      }
+    }
+  }
+}
 
 void NarrowBand::MeasureDistance(double reach)
 {
-  const auto& dims = this->Frame.Dims;
+  const Lattice& frame = this->Where->Frame();
+  const int slices = frame.Dims[2];
   const std::vector<std::vector<Disc>> discs = this->FindDiscs();
-  const DiscStamp stamp(this->Frame, reach);
-  const int ny = int(reach / this->Frame.Spacing[1]), nz = int(reach / this->Frame.Spacing[2]);
-  std::vector<float> squared(this->Phi.size(), float(reach * reach));
-  ParallelFor(0, (dims[2] + SlabThickness - 1) / SlabThickness, 1,
+  const DiscStamp stamp(frame, reach);
+  const int nz = int(reach / frame.Spacing[2]);
+  // Only active samples are asked for; what is written beside them does not matter.
+  float* const squared = this->Memory->Third.Sized(frame.Size());
+  const float far = float(reach);
+  this->Where->ForRuns([&](Index first, Index count, Index) { std::fill_n(squared + first, count, far * far); });
+  ParallelFor(0, (slices + SlabThickness - 1) / SlabThickness, 1,
     [&](Index firstSlab, Index lastSlab)
     {
-      const int k0 = int(firstSlab) * SlabThickness, k1 = std::min(int(lastSlab) * SlabThickness, dims[2]);
-      for (int z = std::max(0, k0 - nz); z < std::min(dims[2], k1 + nz); ++z)
+      const int k0 = int(firstSlab) * SlabThickness, k1 = std::min(int(lastSlab) * SlabThickness, slices);
+      for (int z = std::max(0, k0 - nz); z < std::min(slices, k1 + nz); ++z)
       {
-        for (const Disc& disc : discs[z])
-        {
-          const int y = disc.Sample[1];
-          for (int k = std::max(-nz, k0 - z); k <= std::min(nz, k1 - 1 - z); ++k)
-          {
-            for (int j = std::max(-ny, -y); j <= std::min(ny, dims[1] - 1 - y); ++j)
-            {
-              stamp.Row(disc, j, k, squared);
-            }
-          }
-        }
+        stamp.Stamp(discs[z], k0, k1, squared);
       }
     });
-  const float far = float(reach);
   this->Advance(
-    [&](const Run& run)
+    [&](const BandLayout::Run* runs, Index count, Index)
     {
-      for (Index i = run.First; i < run.First + run.Count; ++i)
+      for (Index r = 0; r < count; ++r)
       {
-        const float distance = std::sqrt(squared[i]), before = std::abs(this->Phi[i]);
-        const float measured = distance < far ? distance : std::max(before, far);
-        this->Next[i] = this->Phi[i] > 0 ? measured : -measured;
+        for (Index i = runs[r].First; i < runs[r].First + runs[r].Count; ++i)
+        {
+          const float distance = std::sqrt(squared[i]), before = std::abs(this->Phi[i]);
+          const float measured = distance < far ? distance : std::max(before, far);
+          this->Next[i] = this->Phi[i] > 0 ? measured : -measured;
+        }
       }
     });
 }

@@ -14,48 +14,89 @@ using namespace LabelMesh::Testing;
 
 namespace
 {
+struct Result
+{
+  std::vector<float> Distance;
+  double MaskVolume = 0, TightVolume = 0;
+};
+
 /// Masks of a label function on one lattice.
 struct Volume
 {
   Lattice Frame;
-  std::vector<std::vector<float>> Masks;
+  std::vector<Sides> Masks;
   std::vector<MaterialMask> Materials;
 
   Volume(const Lattice& frame, int labels, const std::function<int(const Vec3&)>& labelAt)
     : Frame(frame)
-    , Masks(labels, std::vector<float>(frame.Size(), 0.0f))
+    , Masks(labels, Sides(frame.Size(), 0))
   {
     for (Index at = 0; at < frame.Size(); ++at)
     {
       const auto c = frame.Coordinates(at);
-      this->Masks[labelAt(frame.Position(c[0], c[1], c[2]))][at] = 1.0f;
+      this->Masks[labelAt(frame.Position(c[0], c[1], c[2]))][at] = 1;
     }
     for (int m = 0; m < labels; ++m)
     {
-      this->Materials.push_back({ "Label_" + std::to_string(m), frame, this->Masks[m].data(), 0.7 });
+      this->Materials.push_back({ "Label_" + std::to_string(m), frame, this->Masks[m].data(), 0.7, nullptr });
     }
   }
-  std::vector<TightenResult> Smooth() const
+  std::vector<Result> Smooth(const Monitor& monitor = Monitor()) const
   {
-    return SmoothJointly(this->Frame, this->Materials, JointSmoothingOptions(), Monitor());
+    std::vector<Result> results(this->Materials.size());
+    std::vector<MaterialMask> materials = this->Materials;
+    for (std::size_t m = 0; m < materials.size(); ++m)
+    {
+      results[m].Distance.resize(materials[m].Frame.Size());
+      materials[m].Distance = results[m].Distance.data();
+    }
+    const auto volumes = SmoothJointly(this->Frame, materials, JointSmoothingOptions(), monitor);
+    for (std::size_t m = 0; m < materials.size(); ++m)
+    {
+      results[m].MaskVolume = volumes[m].Mask;
+      results[m].TightVolume = volumes[m].Tight;
+    }
+    return results;
   }
 };
+
+/// A layout whose active samples are those of a set; its mask does not matter.
+BandLayout LayoutOf(const Lattice& frame, const std::function<bool(int, int, int)>& active)
+{
+  const Lattice grown = BandLayout::Grown(frame);
+  const Sides mask(frame.Size(), 0);
+  BitLattice bits(grown.Dims);
+  for (Index at = 0; at < frame.Size(); ++at)
+  {
+    const auto c = frame.Coordinates(at);
+    if (active(c[0], c[1], c[2]))
+    {
+      const int i = c[0] + BandLayout::Margin;
+      bits.Add({ i, i + 1 }, c[1] + BandLayout::Margin, c[2] + BandLayout::Margin);
+    }
+  }
+  return BandLayout(grown, mask.data(), bits);
+}
+
+void Blur(const BandLayout& layout, double sigma, std::vector<float>& values)
+{
+  std::vector<float> box(layout.Frame().Size(), 1e9f); // what is not written must not be read
+  GaussianBlur(layout, sigma).Apply(layout, values.data(), box.data());
+}
 }
 
 TEST(GaussianBlur, KeepsTheSumAndHasItsVariance)
 {
-  const Lattice frame = MakeLattice(31, 31, 31, Vec3(1, 1.5, 0.75));
-  const GaussianBlur blur(frame, 2.0, std::vector<RowRange>(31 * 31, RowRange{ 0, 31 }));
-  std::vector<float> field;
-  blur.Clear(field);
-  field[frame.At(15, 15, 15)] = 1.0f;
-  blur.Apply(field);
+  const BandLayout layout = LayoutOf(MakeLattice(31, 31, 31, Vec3(1, 1.5, 0.75)), [](int, int, int) { return true; });
+  const Lattice& frame = layout.Frame(); // in voxels
+  std::vector<float> field(layout.NumberOfActive(), 0.0f);
+  field[15 + 31 * (15 + 31 * 15)] = 1.0f;
+  Blur(layout, 2.0, field);
   double sum = 0;
   Vec3 variance = Vec3::Zero();
-  for (Index at = 0; at < frame.Size(); ++at)
+  for (Index at = 0; at < Index(field.size()); ++at)
   {
-    const auto c = frame.Coordinates(at);
-    const Vec3 x = frame.Position(c[0], c[1], c[2]) - frame.Position(15, 15, 15);
+    const Vec3 x = frame.Spacing.cwiseProduct(Vec3(at % 31 - 15, at / 31 % 31 - 15, at / (31 * 31) - 15));
     sum += field[at];
     variance += field[at] * x.cwiseAbs2();
   }
@@ -66,35 +107,33 @@ TEST(GaussianBlur, KeepsTheSumAndHasItsVariance)
   }
 }
 
-TEST(GaussianBlur, InRangesIsWhatItIsEverywhere)
+TEST(GaussianBlur, OfASparseFieldIsWhatItIsEverywhere)
 {
-  const Lattice frame = MakeLattice(40, 30, 20);
-  std::vector<RowRange> rows(30 * 20);
-  std::vector<float> everywhere, within(frame.Size(), 1e9f); // what lies beyond the ranges must not be read
-  const GaussianBlur whole(frame, 1.5, std::vector<RowRange>(30 * 20, RowRange{ 0, 40 }));
-  whole.Clear(everywhere);
-  for (Index k = 0; k < 20; ++k)
+  const Lattice frame = MakeLattice(70, 30, 20); // rows of more than one word of bits
+  const auto active = [](int i, int j, int k)
+  { return (i >= (j + k) / 2 && i < (j + k) / 2 + (j * k) % 9) || (i > 60 && i < 60 + j % 11) || (j == 7 && k == 3); };
+  const BandLayout sparse = LayoutOf(frame, active), dense = LayoutOf(frame, [](int, int, int) { return true; });
+  std::vector<float> within, everywhere;
+  for (Index at = 0; at < frame.Size(); ++at)
   {
-    for (Index j = 0; j < 30; ++j)
+    const auto c = frame.Coordinates(at);
+    const bool on = active(c[0], c[1], c[2]);
+    everywhere.push_back(on ? float(std::sin(double(c[0] + 3 * c[1] + 7 * c[2]))) : 0.0f);
+    if (on)
     {
-      const Index first = (j + k) / 2, last = std::min<Index>(40, first + (j * k) % 9);
-      rows[j + 30 * k] = { first, last };
-      for (Index i = first; i < last; ++i)
-      {
-        everywhere[frame.At(i, j, k)] = within[frame.At(i, j, k)] = float(std::sin(double(i + 3 * j + 7 * k)));
-      }
+      within.push_back(everywhere.back());
     }
   }
-  whole.Apply(everywhere);
-  GaussianBlur(frame, 1.5, rows).Apply(within);
-  for (Index k = 0; k < 20; ++k)
+  ASSERT_EQ(Index(within.size()), sparse.NumberOfActive());
+  Blur(sparse, 1.5, within);
+  Blur(dense, 1.5, everywhere);
+  std::size_t packed = 0;
+  for (Index at = 0; at < frame.Size(); ++at)
   {
-    for (Index j = 0; j < 30; ++j)
+    const auto c = frame.Coordinates(at);
+    if (active(c[0], c[1], c[2]))
     {
-      for (Index i = rows[j + 30 * k].First; i < rows[j + 30 * k].Last; ++i)
-      {
-        ASSERT_NEAR(within[frame.At(i, j, k)], everywhere[frame.At(i, j, k)], 1e-6);
-      }
+      ASSERT_NEAR(within[packed++], everywhere[at], 1e-6);
     }
   }
 }
@@ -164,7 +203,7 @@ TEST(JointSmoothing, SameBitsForAnyNumberOfThreads)
 {
   const Volume volume(
     MakeLattice(110, 100, 100), 2, [](const Vec3& x) { return int(std::sin(x[0] / 5) * 20 + 50 > x[2]); });
-  std::vector<TightenResult> one, two;
+  std::vector<Result> one, two;
   vtkSMPTools::LocalScope(vtkSMPTools::Config(1, "STDThread", false), [&] { one = volume.Smooth(); });
   vtkSMPTools::LocalScope(vtkSMPTools::Config(2, "STDThread", false), [&] { two = volume.Smooth(); });
   EXPECT_EQ(one[1].Distance, two[1].Distance);
@@ -173,9 +212,7 @@ TEST(JointSmoothing, SameBitsForAnyNumberOfThreads)
 TEST(JointSmoothing, RefusesAMaterialOnAGridOfItsOwnAndStopsOnRequest)
 {
   Volume volume(MakeLattice(20, 20, 20), 2, [](const Vec3& x) { return int(x[0] > 10); });
-  EXPECT_THROW(SmoothJointly(volume.Frame, volume.Materials, JointSmoothingOptions(),
-                 Monitor([](double, const std::string&) { return true; })),
-    Aborted);
+  EXPECT_THROW(volume.Smooth(Monitor([](double, const std::string&) { return true; })), Aborted);
   volume.Materials[1].Frame.Spacing *= 0.5;
   EXPECT_THROW(volume.Smooth(), std::invalid_argument);
 }

@@ -24,15 +24,32 @@ Lattice MakeLattice(int nx, int ny, int nz, const Vec3& spacing = Vec3::Ones())
 }
 
 template <typename Inside>
-std::vector<float> MakeMask(const Lattice& lattice, Inside&& inside)
+Sides MakeMask(const Lattice& lattice, Inside&& inside)
 {
-  std::vector<float> mask(static_cast<std::size_t>(lattice.Size()));
+  Sides mask(static_cast<std::size_t>(lattice.Size()));
   for (Index at = 0; at < lattice.Size(); ++at)
   {
     const auto c = lattice.Coordinates(at);
-    mask[at] = inside(lattice.Position(c[0], c[1], c[2])) ? 1.0f : 0.0f;
+    mask[at] = inside(lattice.Position(c[0], c[1], c[2])) ? 1 : 0;
   }
   return mask;
+}
+
+/// What Tighten gives.
+struct Result
+{
+  std::vector<float> Distance;
+  double MaskVolume = 0, TightVolume = 0;
+};
+
+Result Tightened(const Lattice& frame, const Sides& mask, const TightenOptions& options)
+{
+  Result result;
+  result.Distance.resize(mask.size());
+  const TightenVolumes volumes = Tighten(frame, mask.data(), options, Monitor(), result.Distance.data());
+  result.MaskVolume = volumes.Mask;
+  result.TightVolume = volumes.Tight;
+  return result;
 }
 
 /// A ball around a point that is no sample.
@@ -56,7 +73,7 @@ struct Ball
   Lattice Frame;
   double Radius;
   Vec3 Center;
-  std::vector<float> Mask;
+  Sides Mask;
 };
 
 struct SurfaceErrors
@@ -116,7 +133,7 @@ TightenOptions WithRadius(double radius)
 }
 
 /// Blobs without any symmetry, several of them thin.
-std::vector<float> RandomMask(const Lattice& lattice, unsigned int seed)
+Sides RandomMask(const Lattice& lattice, unsigned int seed)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -149,9 +166,10 @@ std::vector<float> RandomMask(const Lattice& lattice, unsigned int seed)
 TEST(SignedDistance, IsExactForCubicVoxels)
 {
   const Lattice lattice = MakeLattice(23, 21, 19);
-  const std::vector<float> mask = RandomMask(lattice, 7);
+  const Sides mask = RandomMask(lattice, 7);
   const double band = 4.0;
-  const std::vector<float> distance = SignedDistance(lattice, mask.data(), band);
+  std::vector<float> distance(mask.size());
+  SignedDistance(lattice, mask, band, distance.data());
   for (Index at = 0; at < lattice.Size(); ++at)
   {
     const auto c = lattice.Coordinates(at);
@@ -173,7 +191,8 @@ TEST(SignedDistance, OfAPlaneCountsInWorldLengths)
 {
   const Lattice lattice = MakeLattice(9, 9, 20, Vec3(1, 2, 3));
   const auto mask = MakeMask(lattice, [](const Vec3& x) { return x[2] < 28; }); // samples 0 to 9 along z
-  const auto distance = SignedDistance(lattice, mask.data(), 20.0);
+  std::vector<float> distance(mask.size());
+  SignedDistance(lattice, mask, 20.0, distance.data());
   for (int k = 0; k < 20; ++k)
   {
     EXPECT_FLOAT_EQ(distance[lattice.At(4, 4, k)], std::clamp(28.5 - 3.0 * k, -20.0, 20.0)) << k;
@@ -188,8 +207,7 @@ TEST(SignedDistance, OpeningAndClosingByABall)
   { return x[0] >= 8 && x[0] <= 20 && x[1] >= 8 && x[1] <= 20 && x[2] >= 8 && x[2] <= 20; };
   const auto bar = [](const Vec3& x) { return x[0] > 20 && x[0] <= 32 && x[1] == 14 && x[2] == 14; };
   const auto slit = [](const Vec3& x) { return x[0] == 12 && x[1] >= 12; };
-  const auto mask = MakeMask(lattice, [&](const Vec3& x) { return (block(x) && !slit(x)) || bar(x); });
-  const Sides sides = SidesOf(mask.data(), lattice.Size());
+  const Sides sides = MakeMask(lattice, [&](const Vec3& x) { return (block(x) && !slit(x)) || bar(x); });
   const Sides opened = Opened(lattice, sides, 1.0);
   const Sides closed = Closed(lattice, sides, 1.0);
   EXPECT_FALSE(opened[lattice.At(26, 14, 14)]); // the bar is gone
@@ -209,9 +227,9 @@ TEST(LevelSet, AntialiasingSmoothsASphere)
   const Ball ball(30, Vec3::Ones());
   TightenOptions options = WithRadius(0);
   options.AntialiasIterations = 0;
-  const SurfaceErrors rough = ErrorsOf(ball, Tighten(ball.Frame, ball.Mask.data(), options, Monitor()).Distance);
+  const SurfaceErrors rough = ErrorsOf(ball, Tightened(ball.Frame, ball.Mask, options).Distance);
   options.AntialiasIterations = 10;
-  const TightenResult result = Tighten(ball.Frame, ball.Mask.data(), options, Monitor());
+  const Result result = Tightened(ball.Frame, ball.Mask, options);
   const SurfaceErrors smooth = ErrorsOf(ball, result.Distance);
   EXPECT_GT(rough.MeanAngle, 7.0);
   EXPECT_LT(smooth.MeanAngle, 1.8);
@@ -225,7 +243,7 @@ TEST(LevelSet, AntialiasingSmoothsASphere)
 TEST(LevelSet, TighteningKeepsWhatTheBallFits)
 {
   const Ball ball(30, Vec3::Ones());
-  const TightenResult result = Tighten(ball.Frame, ball.Mask.data(), WithRadius(1), Monitor());
+  const Result result = Tightened(ball.Frame, ball.Mask, WithRadius(1));
   const SurfaceErrors errors = ErrorsOf(ball, result.Distance);
   EXPECT_LT(errors.MeanAngle, 1.8);
   EXPECT_LT(std::abs(errors.MeanRadius), 0.11);
@@ -238,7 +256,7 @@ TEST(LevelSet, UnequalSpacings)
   for (const Vec3& spacing : { Vec3(1, 1, 3), Vec3(2, 2, 1.5), Vec3(3, 1, 1) })
   {
     const Ball ball(40, spacing);
-    const TightenResult result = Tighten(ball.Frame, ball.Mask.data(), WithRadius(1), Monitor());
+    const Result result = Tightened(ball.Frame, ball.Mask, WithRadius(1));
     const SurfaceErrors errors = ErrorsOf(ball, result.Distance);
     EXPECT_LT(errors.MeanAngle, 2.6) << spacing.transpose();
     EXPECT_LT(std::abs(errors.MeanRadius), 0.2 * ball.Frame.VoxelSize()) << spacing.transpose();
@@ -252,8 +270,8 @@ TEST(LevelSet, ScalesWithTheUnitOfLength)
   const Lattice small = MakeLattice(30, 30, 30, Vec3(1, 1, 1.5));
   const Lattice large = MakeLattice(30, 30, 30, Vec3(64, 64, 96)); // a power of two: exact
   const auto mask = RandomMask(small, 3);
-  const auto a = Tighten(small, mask.data(), TightenOptions(), Monitor());
-  const auto b = Tighten(large, mask.data(), TightenOptions(), Monitor());
+  const auto a = Tightened(small, mask, TightenOptions());
+  const auto b = Tightened(large, mask, TightenOptions());
   for (std::size_t at = 0; at < a.Distance.size(); ++at)
   {
     ASSERT_NEAR(64 * a.Distance[at], b.Distance[at], 0.01);
@@ -267,10 +285,10 @@ TEST(LevelSet, AntialiasingChangesNoSide)
   {
     const Lattice lattice = MakeLattice(40, 40, 40, spacing);
     const auto mask = RandomMask(lattice, 11);
-    const auto result = Tighten(lattice, mask.data(), WithRadius(0), Monitor());
+    const auto result = Tightened(lattice, mask, WithRadius(0));
     for (Index at = 0; at < lattice.Size(); ++at)
     {
-      ASSERT_EQ(result.Distance[at] > 0, mask[at] > 0.5f);
+      ASSERT_EQ(result.Distance[at] > 0, mask[at] == 1);
     }
   }
 }
@@ -281,7 +299,8 @@ TEST(NarrowBand, MeasuredDistanceReachesTheMedialAxis)
   NarrowBand band(ball.Frame, ball.Mask.data(), 4.0);
   const auto peak = [&]()
   {
-    const std::vector<float> d = band.Distance(1.0, 10.0);
+    std::vector<float> d(ball.Mask.size());
+    band.Distance(1.0, 10.0, d.data());
     return *std::max_element(d.begin(), d.end());
   };
   band.Redistance(4.0);
@@ -318,7 +337,7 @@ TEST(LevelSet, TighteningRoundsACornerByTheRadius)
   for (const double radius : { 2.0, 4.0 })
   {
     Grid<float> distance(lattice);
-    distance.Values = Tighten(lattice, mask.data(), WithRadius(radius), Monitor()).Distance;
+    distance.Values = Tightened(lattice, mask, WithRadius(radius)).Distance;
     // The cube's faces are at 9.5 and 34.5. A corner rounded by r is (sqrt(3) - 1) r below the sharp one.
     const double cut = 0.7320508 * radius;
     double along = 0;
@@ -343,15 +362,15 @@ TEST(LevelSet, PlatesThinnerThanTheBallVanish)
       { return x[0] >= 8 && x[0] <= 41 && x[1] >= 8 && x[1] <= 41 && x[2] >= 12 && x[2] < 12 + thickness; });
   };
   const auto thick = plate(4), three = plate(3), one = plate(1);
-  const auto kept = Tighten(lattice, thick.data(), WithRadius(1), Monitor());
+  const auto kept = Tightened(lattice, thick, WithRadius(1));
   EXPECT_GT(kept.TightVolume, 0.85 * kept.MaskVolume);
   EXPECT_LT(kept.TightVolume, 1.0 * kept.MaskVolume);
-  const auto alsoKept = Tighten(lattice, three.data(), WithRadius(1), Monitor());
+  const auto alsoKept = Tightened(lattice, three, WithRadius(1));
   EXPECT_GT(alsoKept.TightVolume, 0.8 * alsoKept.MaskVolume);
-  const auto gone = Tighten(lattice, one.data(), WithRadius(1), Monitor());
+  const auto gone = Tightened(lattice, one, WithRadius(1));
   EXPECT_EQ(gone.TightVolume, 0.0);
   EXPECT_LT(*std::max_element(gone.Distance.begin(), gone.Distance.end()), 0.0f);
-  const auto antialiased = Tighten(lattice, one.data(), WithRadius(0), Monitor());
+  const auto antialiased = Tightened(lattice, one, WithRadius(0));
   EXPECT_GT(antialiased.TightVolume, 0.0);
 }
 
@@ -361,7 +380,7 @@ TEST(LevelSet, BallsFitBetweenSamples)
   const Lattice lattice = MakeLattice(50, 50, 30);
   const auto plate = MakeMask(lattice,
     [](const Vec3& x) { return x[0] >= 8 && x[0] <= 41 && x[1] >= 8 && x[1] <= 41 && x[2] >= 12 && x[2] < 14; });
-  const auto result = Tighten(lattice, plate.data(), WithRadius(1), Monitor());
+  const auto result = Tightened(lattice, plate, WithRadius(1));
   EXPECT_GT(result.TightVolume, 0.5 * result.MaskVolume); // thinner than the ball along the rim
 }
 
@@ -369,7 +388,7 @@ TEST(LevelSet, TheMirrorImageGivesTheMirrorImage)
 {
   const Lattice lattice = MakeLattice(36, 34, 32, Vec3(1, 1.2, 0.9));
   const auto mask = RandomMask(lattice, 5);
-  const auto plain = Tighten(lattice, mask.data(), TightenOptions(), Monitor());
+  const auto plain = Tightened(lattice, mask, TightenOptions());
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto mirror = [&](Index at)
@@ -378,12 +397,12 @@ TEST(LevelSet, TheMirrorImageGivesTheMirrorImage)
       c[axis] = lattice.Dims[axis] - 1 - c[axis];
       return lattice.At(c[0], c[1], c[2]);
     };
-    std::vector<float> mirrored(mask.size());
+    Sides mirrored(mask.size());
     for (Index at = 0; at < lattice.Size(); ++at)
     {
       mirrored[mirror(at)] = mask[at];
     }
-    const auto result = Tighten(lattice, mirrored.data(), TightenOptions(), Monitor());
+    const auto result = Tightened(lattice, mirrored, TightenOptions());
     for (Index at = 0; at < lattice.Size(); ++at)
     {
       ASSERT_EQ(result.Distance[mirror(at)], plain.Distance[at]) << "axis " << axis;
@@ -396,12 +415,12 @@ TEST(LevelSet, TheBackgroundIsTheNegative)
   const Lattice lattice = MakeLattice(36, 34, 32);
   const auto mask = RandomMask(lattice, 9);
   auto background = mask;
-  for (float& value : background)
+  for (std::uint8_t& value : background)
   {
     value = 1 - value;
   }
-  const auto inside = Tighten(lattice, mask.data(), TightenOptions(), Monitor());
-  const auto outside = Tighten(lattice, background.data(), TightenOptions(), Monitor());
+  const auto inside = Tightened(lattice, mask, TightenOptions());
+  const auto outside = Tightened(lattice, background, TightenOptions());
   for (std::size_t at = 0; at < mask.size(); ++at)
   {
     ASSERT_NEAR(inside.Distance[at], -outside.Distance[at], 1e-4);
@@ -413,7 +432,7 @@ TEST(LevelSet, MasksThatTouchTheBorderContinueThere)
 {
   const Lattice lattice = MakeLattice(20, 20, 20);
   const auto mask = MakeMask(lattice, [](const Vec3& x) { return x[2] < 10; });
-  const auto result = Tighten(lattice, mask.data(), TightenOptions(), Monitor());
+  const auto result = Tightened(lattice, mask, TightenOptions());
   for (Index at = 0; at < lattice.Size(); ++at)
   {
     const double expected = std::clamp(9.5 - lattice.Coordinates(at)[2], -4.0, 4.0);
@@ -424,10 +443,10 @@ TEST(LevelSet, MasksThatTouchTheBorderContinueThere)
 TEST(LevelSet, DegenerateMasks)
 {
   const Lattice lattice = MakeLattice(15, 14, 13, Vec3(2, 2, 2));
-  const std::vector<float> empty(static_cast<std::size_t>(lattice.Size()), 0.0f);
-  const std::vector<float> full(empty.size(), 1.0f);
-  const auto none = Tighten(lattice, empty.data(), TightenOptions(), Monitor());
-  const auto all = Tighten(lattice, full.data(), TightenOptions(), Monitor());
+  const Sides empty(static_cast<std::size_t>(lattice.Size()), 0);
+  const Sides full(empty.size(), 1);
+  const auto none = Tightened(lattice, empty, TightenOptions());
+  const auto all = Tightened(lattice, full, TightenOptions());
   EXPECT_EQ(none.TightVolume, 0.0);
   EXPECT_EQ(all.TightVolume, 8.0 * double(lattice.Size()));
   for (std::size_t at = 0; at < empty.size(); ++at)
@@ -436,12 +455,12 @@ TEST(LevelSet, DegenerateMasks)
     ASSERT_EQ(all.Distance[at], 8.0f);
   }
 
-  std::vector<float> one = empty;
-  one[lattice.At(7, 7, 6)] = 1.0f;
-  const auto vanished = Tighten(lattice, one.data(), TightenOptions(), Monitor());
+  Sides one = empty;
+  one[lattice.At(7, 7, 6)] = 1;
+  const auto vanished = Tightened(lattice, one, TightenOptions());
   EXPECT_EQ(vanished.MaskVolume, 8.0);
   EXPECT_EQ(vanished.TightVolume, 0.0);
-  const auto kept = Tighten(lattice, one.data(), WithRadius(0), Monitor());
+  const auto kept = Tightened(lattice, one, WithRadius(0));
   EXPECT_LT(kept.TightVolume, 0.08) << "a twentieth of a voxel wide";
   EXPECT_GT(kept.Distance[lattice.At(7, 7, 6)], 0.0f);
   for (const float value : vanished.Distance)
@@ -449,7 +468,7 @@ TEST(LevelSet, DegenerateMasks)
     ASSERT_TRUE(std::isfinite(value));
   }
 
-  EXPECT_TRUE(Tighten(Lattice(), nullptr, TightenOptions(), Monitor()).Distance.empty());
+  EXPECT_EQ(Tighten(Lattice(), nullptr, TightenOptions(), Monitor(), nullptr).Mask, 0.0);
 }
 
 TEST(LevelSet, SameBitsForAnyNumberOfThreads)
@@ -458,11 +477,11 @@ TEST(LevelSet, SameBitsForAnyNumberOfThreads)
   const auto mask = RandomMask(lattice, 21);
   const std::string backend = vtkSMPTools::GetBackend();
   vtkSMPTools::SetBackend("STDThread");
-  std::vector<TightenResult> results;
+  std::vector<Result> results;
   for (const int threads : { 1, 2, 3 })
   {
     vtkSMPTools::Initialize(threads);
-    results.push_back(Tighten(lattice, mask.data(), TightenOptions(), Monitor()));
+    results.push_back(Tightened(lattice, mask, TightenOptions()));
   }
   vtkSMPTools::Initialize(0);
   vtkSMPTools::SetBackend(backend.c_str());
@@ -475,11 +494,11 @@ TEST(LevelSet, OptionsAndAbort)
 {
   const Lattice lattice = MakeLattice(20, 20, 20);
   const auto mask = RandomMask(lattice, 2);
-  EXPECT_THROW(Tighten(lattice, mask.data(), WithRadius(-1), Monitor()), std::invalid_argument);
-  EXPECT_THROW(Tighten(lattice, mask.data(), WithRadius(NAN), Monitor()), std::invalid_argument);
+  EXPECT_THROW(Tightened(lattice, mask, WithRadius(-1)), std::invalid_argument);
+  EXPECT_THROW(Tightened(lattice, mask, WithRadius(NAN)), std::invalid_argument);
   TightenOptions options;
   options.TightenIterations = -3;
-  EXPECT_THROW(Tighten(lattice, mask.data(), options, Monitor()), std::invalid_argument);
+  EXPECT_THROW(Tightened(lattice, mask, options), std::invalid_argument);
   std::string last;
   const Monitor stop(
     [&last](double fraction, const std::string& text)
@@ -487,7 +506,8 @@ TEST(LevelSet, OptionsAndAbort)
       last = text;
       return fraction > 0.3;
     });
-  EXPECT_THROW(Tighten(lattice, mask.data(), TightenOptions(), stop), Aborted);
+  std::vector<float> distance(mask.size());
+  EXPECT_THROW(Tighten(lattice, mask.data(), TightenOptions(), stop, distance.data()), Aborted);
   EXPECT_EQ(last, "Closing");
 }
 }

@@ -8,17 +8,21 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkObject.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace TestCollections
 {
@@ -26,6 +30,24 @@ using namespace LabelMesh;
 
 /// A field of the position in the local frame.
 using Field = std::function<double(const Vec3&)>;
+
+inline vtkSmartPointer<vtkFloatArray> FloatArray(const char* name, const std::vector<float>& values)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+inline vtkSmartPointer<vtkUnsignedCharArray> MaskArray(const GridFrame& frame, std::uint8_t value)
+{
+  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetName(Names::Mask);
+  array->SetNumberOfValues(frame.Samples().Size());
+  array->FillValue(value);
+  return array;
+}
 
 /// A collection with one block per label, which covers the working grid; label 0 is the background.
 inline vtkSmartPointer<vtkPartitionedDataSetCollection> MakeCollection(
@@ -51,7 +73,7 @@ inline vtkSmartPointer<vtkPartitionedDataSetCollection> MakeCollection(
       const auto c = lattice.Coordinates(at);
       values[at] = float(field(lattice.Position(c[0], c[1], c[2])));
     }
-    AppendBlock(collection, header.Materials[m], working, arrayName, std::move(values));
+    AppendBlock(collection, header.Materials[m], working, FloatArray(arrayName, values));
   }
   return collection;
 }

@@ -204,7 +204,7 @@ TEST(IndicatorReconstruct, TakesBlocksOfAnotherResolution)
       const auto c = lattice.Coordinates(at);
       values[at] = float(fields.at(m == 0 ? 0 : 7)(lattice.Position(c[0], c[1], c[2])));
     }
-    AppendBlock(input, header.Materials[m], frames[m], Names::TightDistance, std::move(values));
+    AppendBlock(input, header.Materials[m], frames[m], FloatArray(Names::TightDistance, values));
   }
   vtkNew<vtkIndicatorReconstruct> filter;
   filter->SetInputDataObject(input);

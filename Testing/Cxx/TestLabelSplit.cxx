@@ -101,7 +101,7 @@ void ExpectMasks(vtkPartitionedDataSetCollection* output, const Labeling& label,
   for (unsigned int n = 0; n < header.Materials.size(); ++n)
   {
     vtkImageData* block = BlockImage(output, n);
-    const float* mask = BlockValues(output, n, Names::Mask);
+    const std::uint8_t* mask = BlockMask(output, n);
     const int* e = block->GetExtent();
     for (int k = e[4]; k <= e[5]; ++k)
     {
@@ -112,7 +112,7 @@ void ExpectMasks(vtkPartitionedDataSetCollection* output, const Labeling& label,
           const bool in =
             i >= extent[0] && i <= extent[1] && j >= extent[2] && j <= extent[3] && k >= extent[4] && k <= extent[5];
           const double expected = in ? label(i, j, k) : 0;
-          ASSERT_EQ(*mask++, expected == header.Materials[n].Label ? 1.0f : 0.0f)
+          ASSERT_EQ(*mask++, expected == header.Materials[n].Label ? 1 : 0)
             << header.Materials[n].Name << " at " << i << " " << j << " " << k;
         }
       }
@@ -132,7 +132,7 @@ std::vector<LabelMesh::Label> LabelsOf(vtkPartitionedDataSetCollection* output)
 
 double Sum(vtkPartitionedDataSetCollection* output, unsigned int n)
 {
-  const float* mask = BlockValues(output, n, Names::Mask);
+  const std::uint8_t* mask = BlockMask(output, n);
   double sum = 0;
   for (vtkIdType i = 0; i < BlockImage(output, n)->GetNumberOfPoints(); ++i)
   {
@@ -175,7 +175,7 @@ TEST(LabelSplit, KeepsTheContract)
     vtkImageData* block = BlockImage(output, n);
     EXPECT_EQ(block->GetPointData()->GetNumberOfArrays(), 1);
     EXPECT_STREQ(block->GetPointData()->GetScalars()->GetName(), "Mask");
-    EXPECT_EQ(block->GetPointData()->GetScalars()->GetDataType(), VTK_FLOAT);
+    EXPECT_EQ(block->GetPointData()->GetScalars()->GetDataType(), VTK_UNSIGNED_CHAR);
     EXPECT_EQ(block->GetFieldData()->GetArray("Label")->GetTuple1(0), double(expected[n]));
     EXPECT_EQ(block->GetFieldData()->GetArray("Color")->GetNumberOfComponents(), 3);
   }

@@ -240,7 +240,7 @@ TEST(Tighten, OnlyTheIterationsAskedFor)
   tighten->Update();
   for (unsigned int n = 0; n < 4; ++n)
   {
-    const float* mask = BlockValues(split->GetOutput(), n, Names::Mask);
+    const std::uint8_t* mask = BlockMask(split->GetOutput(), n);
     const float* d = BlockValues(tighten->GetOutput(), n, Names::TightDistance);
     for (vtkIdType at = 0; at < BlockImage(split->GetOutput(), n)->GetNumberOfPoints(); ++at)
     {
@@ -286,9 +286,9 @@ TEST(Tighten, SaysWhatIsWrong)
   header.Source = source;
   header.Materials = { DefaultMaterial(0), DefaultMaterial(7) };
   WriteHeader(twoGrids, header);
-  AppendBlock(twoGrids, header.Materials[0], source, Names::Mask, std::vector<float>(source.Samples().Size(), 1.0f));
+  AppendBlock(twoGrids, header.Materials[0], source, MaskArray(source, 1));
   const GridFrame fine({ 0, 9, 0, 9, 0, 9 }, Vec3(5, 5, 5), Vec3::Constant(0.5), Mat3::Identity());
-  AppendBlock(twoGrids, header.Materials[1], fine, Names::Mask, std::vector<float>(fine.Samples().Size(), 0.0f));
+  AppendBlock(twoGrids, header.Materials[1], fine, MaskArray(fine, 0));
   vtkNew<vtkTighten> grids;
   Listener twoListener(grids), twoExecutive(grids->GetExecutive());
   grids->SetInputData(twoGrids);
