@@ -112,28 +112,25 @@ TEST(NarrowBand, KeptAsItsPackedValuesItFlowsOnAsBefore)
   EXPECT_EQ(again.Pack(), expected);
 }
 
-TEST(NarrowBand, WidenedItHasTheDistanceFartherOut)
+TEST(NarrowBand, WidenedItIsWhatItWouldBeIfWideFromTheStart)
 {
-  const Lattice frame = MakeLattice(40, 40, 40, Vec3::Ones(), Vec3(-13, -12, -12));
+  const Lattice frame = MakeLattice(40, 40, 40, Vec3(1, 1.2, 0.9), Vec3(-13, -12, -12));
   const Sides mask = BallMask(frame, 12);
-  NarrowBand band(frame, mask.data(), 2.5);
-  band.SmoothKeepingSides(2.0);
-  band.Redistance(2.0);
-  const Index narrow = band.Layout()->NumberOfActive();
-  band.Widen(mask.data(), 4.0);
-  band.Redistance(4.0);
-  EXPECT_GT(band.Layout()->NumberOfActive(), 1.3 * narrow);
-  EXPECT_EQ(band.Layout()->NumberOfInside(), std::count(mask.begin(), mask.end(), 1));
-  std::vector<float> distance(mask.size());
-  band.Distance(1.0, 4.0, distance.data());
-  double error = 0;
-  for (Index at = 0; at < frame.Size(); ++at)
+  const auto distance = [&](double first, double then)
   {
-    const auto c = frame.Coordinates(at);
-    const double exact = 12 - (frame.Position(c[0], c[1], c[2]) - Vec3(6.2, 7.1, 7.4)).norm();
-    const double off = std::abs(distance[at] - std::clamp(exact, -4.0, 4.0));
-    ASSERT_LT(off, 1.0) << c[0] << " " << c[1] << " " << c[2];
-    error += std::abs(exact) < 4 ? off / double(band.Layout()->NumberOfActive()) : 0;
+    NarrowBand band(frame, mask.data(), first);
+    band.SmoothKeepingSides(2.0);
+    band.Redistance(2.0);
+    band.Widen(mask.data(), then);
+    band.Redistance(4.0);
+    EXPECT_EQ(band.Layout()->NumberOfInside(), std::count(mask.begin(), mask.end(), 1));
+    std::vector<float> values(mask.size());
+    band.Distance(1.0, 3.5, values.data());
+    return values;
+  };
+  const std::vector<float> widened = distance(2.5, 4.0), wide = distance(4.0, 4.0);
+  for (std::size_t at = 0; at < wide.size(); ++at)
+  {
+    ASSERT_NEAR(widened[at], wide[at], 0.02);
   }
-  EXPECT_LT(error, 0.2); // voxels
 }
