@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <numeric>
 
 vtkStandardNewMacro(vtkTighten);
 
@@ -198,17 +199,12 @@ void MeasurePartition(std::vector<Job>& jobs, const CollectionHeader& header)
     blocks.push_back(
       { label, jobs[n].Frame, jobs[n].Distance->GetPointer(0), label == header.Background ? end : -end });
   }
-  const IndicatorSet partition(std::move(blocks), header.Background, working);
-  const std::vector<double> volumes = PartitionVolumes(partition);
-  double rest = double(working.Size()) * working.VoxelVolume();
+  const std::vector<double> volumes = PartitionVolumes(blocks, working);
+  const double rest =
+    double(working.Size()) * working.VoxelVolume() - std::accumulate(volumes.begin(), volumes.end(), 0.0);
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
-    jobs[n].Volumes.Tight = volumes[n];
-    rest -= volumes[n];
-  }
-  if (partition.Background() != NoMaterial)
-  {
-    jobs[partition.Background()].Volumes.Tight += rest;
+    jobs[n].Volumes.Tight = volumes[n] + (blocks[n].Label == header.Background ? rest : 0.0);
   }
 }
 

@@ -7,13 +7,26 @@
 using namespace LabelMesh;
 using namespace LabelMesh::Testing;
 
+namespace
+{
+std::vector<IndicatorBlock> BlocksOf(const IndicatorSet& indicators)
+{
+  std::vector<IndicatorBlock> blocks;
+  for (int m = 0; m < indicators.NumberOfMaterials(); ++m)
+  {
+    blocks.push_back(indicators.Block(MaterialId(m)));
+  }
+  return blocks;
+}
+}
+
 TEST(PartitionVolumes, OfABallAreItsOwn)
 {
   const Lattice frame = MakeLattice(40, 30, 50, Vec3(1, 1.3, 0.8));
   const Vec3 centre(19.7, 19.1, 19.9);
   const double radius = 12;
   const SampledFields fields(frame, { Not(Ball(centre, radius)), Ball(centre, radius) });
-  const auto volumes = PartitionVolumes(*fields);
+  const auto volumes = PartitionVolumes(BlocksOf(*fields), frame);
   const double ball = 4.0 / 3.0 * M_PI * radius * radius * radius, box = 39 * 29 * 49 * frame.VoxelVolume();
   EXPECT_NEAR(volumes[1], ball, 0.005 * ball);
   EXPECT_NEAR(volumes[0] + volumes[1], box, 1e-3 * box);
@@ -25,7 +38,26 @@ TEST(PartitionVolumes, NeighboursFillWhatAMaterialLeaves)
   const Lattice frame = MakeLattice(21, 21, 21);
   const SampledFields fields(
     frame, { [](const Vec3& x) { return x[0] - 10.5; }, [](const Vec3& x) { return 9.5 - x[0]; } });
-  const auto volumes = PartitionVolumes(*fields);
+  const auto volumes = PartitionVolumes(BlocksOf(*fields), frame);
   EXPECT_NEAR(volumes[0], 10 * 400, 1e-6);
   EXPECT_NEAR(volumes[1], 10 * 400, 1e-6);
+}
+
+TEST(PartitionVolumes, OfABlockOnAGridOfItsOwnAndOneThatEndsEarly)
+{
+  // The ball has samples of its own, in a box of its own; the background has none where the ball's box has none.
+  const Lattice frame = MakeLattice(40, 40, 40);
+  const Vec3 centre(19.7, 19.1, 19.9);
+  const double radius = 9;
+  const Lattice fine = MakeLattice(50, 50, 50, Vec3(0.5, 0.5, 0.5), Vec3(7.25, 7.25, 7.75)),
+                inner = MakeLattice(26, 26, 26, Vec3::Ones(), Vec3(7, 7, 7));
+  const SampledFields ball(fine, { Ball(centre, radius) }), rest(inner, { Not(Ball(centre, radius)) });
+  std::vector<IndicatorBlock> blocks = { rest->Block(0), ball->Block(0) };
+  blocks[0].Outside = 4;
+  blocks[1].Outside = -4;
+  const auto volumes = PartitionVolumes(blocks, frame);
+  const double volume = 4.0 / 3.0 * M_PI * radius * radius * radius, box = 39 * 39 * 39;
+  EXPECT_NEAR(volumes[1], volume, 0.01 * volume);
+  EXPECT_NEAR(volumes[0] + volumes[1], box, 1e-6 * box);
+  EXPECT_TRUE(PartitionVolumes({}, frame).empty());
 }
