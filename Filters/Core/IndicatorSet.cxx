@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 namespace LabelMesh
 {
@@ -175,6 +176,59 @@ double IndicatorSet::ValueAndGradient(MaterialId m, const Vec3& x, Vec3& gradien
   return Dot(sum, wx.Value);
 }
 
+double IndicatorSet::Difference(MaterialId a, MaterialId b, const Vec3& x, Vec3& gradient) const
+{
+  const IndicatorBlock &first = this->Blocks[a], &second = this->Blocks[b];
+  const SampleBox &firstBox = this->Boxes[a], &secondBox = this->Boxes[b];
+  bool inner = firstBox.Aligned && secondBox.Aligned;
+  std::array<Index, 3> cell{};
+  std::array<float, 3> t{};
+  for (int axis = 0; axis < 3 && inner; ++axis)
+  {
+    const double u = (x[axis] - this->Working_.Origin[axis]) / this->Working_.Spacing[axis];
+    cell[axis] = u > 0.0 ? Index(u) : -1;
+    t[axis] = float(u - double(cell[axis]));
+    for (const auto& [box, block] : { std::tie(firstBox, first), std::tie(secondBox, second) })
+    {
+      const Index local = cell[axis] - box.Offset[axis];
+      inner = inner && local >= 1 && local + 2 < block.Frame.Dims[axis];
+    }
+  }
+  if (!inner)
+  {
+    Vec3 other;
+    const double difference = this->ValueAndGradient(a, x, gradient) - this->ValueAndGradient(b, x, other);
+    gradient -= other;
+    return difference;
+  }
+  const auto corner = [&cell](const IndicatorBlock& block, const SampleBox& box)
+  {
+    return block.Values +
+      block.Frame.At(cell[0] - box.Offset[0] - 1, cell[1] - box.Offset[1] - 1, cell[2] - box.Offset[2] - 1);
+  };
+  const float* const samples[2] = { corner(first, firstBox), corner(second, secondBox) };
+  const auto row = [&](int n, const IndicatorBlock& block, int j, int k)
+  { return Eigen::Map<const Row>(samples[n] + block.Frame.At(0, j, k)); };
+  const Weights wx(t[0]), wy(t[1]), wz(t[2]);
+  Row sum = Row::Zero(), alongY = Row::Zero(), alongZ = Row::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    Row slice = Row::Zero(), sliceY = Row::Zero();
+    for (int j = 0; j < 4; ++j)
+    {
+      const Row difference = row(0, first, j, k) - row(1, second, j, k);
+      slice += wy.Value[j] * difference;
+      sliceY += wy.First[j] * difference;
+    }
+    sum += wz.Value[k] * slice;
+    alongY += wz.Value[k] * sliceY;
+    alongZ += wz.First[k] * slice;
+  }
+  gradient =
+    Vec3(Dot(sum, wx.First), Dot(alongY, wx.Value), Dot(alongZ, wx.Value)).cwiseQuotient(this->Working_.Spacing);
+  return Dot(sum, wx.Value);
+}
+
 double IndicatorSet::ValueGradientHessian(MaterialId m, const Vec3& x, Vec3& gradient, Mat3& hessian) const
 {
   const IndicatorBlock& block = this->Blocks[m];
@@ -284,6 +338,65 @@ RankedMaterial IndicatorSet::LargestBut(const Vec3& x, const MaterialId* exclude
   return best;
 }
 
+bool IndicatorSet::IsBeaten(MaterialId a, MaterialId b, const Vec3& x) const
+{
+  const MaterialSpan candidates = this->Candidates(x);
+  if (candidates.Count <= 2)
+  {
+    return false;
+  }
+  double value = 0.0;
+  bool known = false;
+  for (const MaterialId m : candidates)
+  {
+    if (m == a || m == b || !this->CanWinAt(m, x))
+    {
+      continue;
+    }
+    value = known ? value : this->Value(a, x);
+    known = true;
+    if (this->Value(m, x) > value)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool IndicatorSet::CanWinAt(MaterialId m, const Vec3& x) const
+{
+  Index at[3];
+  for (int a = 0; a < 3; ++a)
+  {
+    const double sample = (x[a] - this->Working_.Origin[a]) / this->Working_.Spacing[a] + 0.5;
+    at[a] = std::clamp<Index>(Index(sample), 0, this->Working_.Dims[a] - 1);
+  }
+  const auto sampled = [&](MaterialId n, double& value)
+  {
+    const IndicatorBlock& block = this->Blocks[n];
+    const SampleBox& box = this->Boxes[n];
+    Index local[3];
+    bool inside = box.Aligned;
+    for (int a = 0; a < 3; ++a)
+    {
+      local[a] = at[a] - box.Offset[a];
+      inside = inside && local[a] >= 0 && local[a] < block.Frame.Dims[a];
+    }
+    value = inside ? block.Values[block.Frame.At(local[0], local[1], local[2])] : 0.0;
+    return inside;
+  };
+  double value, largest;
+  return !sampled(m, value) || !sampled(this->Labels_[this->Working_.At(at[0], at[1], at[2])], largest) ||
+    value >= largest - this->Slack();
+}
+
+double IndicatorSet::Slack() const
+{
+  // Indicators are distances (1-Lipschitz): with the nearest sample at most half a cell's diagonal away, a material can
+  // only be the largest near a sample where it is at most a diagonal, and the spline's overshoot, below the largest.
+  return this->Working_.Spacing.norm() + Overshoot * this->VoxelSize();
+}
+
 IndicatorSet::SampleBox IndicatorSet::WorkingSamples(const Lattice& block) const
 {
   SampleBox box;
@@ -306,10 +419,9 @@ std::vector<float> IndicatorSet::FindLabels()
   const Lattice& working = this->Working_;
   // Where no block reaches, the material with the largest value beyond its block wins: the background.
   MaterialId beyond = 0;
-  std::vector<SampleBox> boxes;
   for (std::size_t m = 0; m < this->Blocks.size(); ++m)
   {
-    boxes.push_back(this->WorkingSamples(this->Blocks[m].Frame));
+    this->Boxes.push_back(this->WorkingSamples(this->Blocks[m].Frame));
     if (this->Blocks[m].Outside > this->Blocks[beyond].Outside)
     {
       beyond = MaterialId(m);
@@ -320,7 +432,7 @@ std::vector<float> IndicatorSet::FindLabels()
   const auto compete = [&](MaterialId m, Index k)
   {
     const IndicatorBlock& block = this->Blocks[m];
-    const SampleBox& box = boxes[m];
+    const SampleBox& box = this->Boxes[m];
     for (Index j = box.First[1]; j <= box.Last[1]; ++j)
     {
       for (Index i = box.First[0]; i <= box.Last[0]; ++i)
@@ -343,7 +455,7 @@ std::vector<float> IndicatorSet::FindLabels()
       for (Index k = firstSlice; k < lastSlice; ++k)
       {
         // First the one that was assumed everywhere, then its rivals.
-        const auto reaches = [&](MaterialId m) { return k >= boxes[m].First[2] && k <= boxes[m].Last[2]; };
+        const auto reaches = [&](MaterialId m) { return k >= this->Boxes[m].First[2] && k <= this->Boxes[m].Last[2]; };
         if (reaches(beyond))
         {
           compete(beyond, k);
@@ -411,12 +523,9 @@ void IndicatorSet::FindTilesOf(
 {
   const Lattice& working = this->Working_;
   const IndicatorBlock& block = this->Blocks[m];
-  // Indicators are distances (1-Lipschitz): with the nearest sample at most half a cell's diagonal away, a material can
-  // only be the largest near a sample where it is at most a diagonal, and the spline's overshoot, below the largest.
   // A block on a lattice of its own is compared with the nearest working sample: its diagonal comes on top.
-  const SampleBox box = this->WorkingSamples(block.Frame);
-  const float slack = float(working.Spacing.norm() +
-    (box.Aligned ? 0.0 : block.Frame.Spacing.norm() + working.Spacing.norm()) + Overshoot * this->VoxelSize());
+  const SampleBox& box = this->Boxes[m];
+  const float slack = float(this->Slack() + (box.Aligned ? 0.0 : block.Frame.Spacing.norm() + working.Spacing.norm()));
   // The block's samples in the tile's cells, or one more on either side where the lattices differ.
   const auto samples = [&](int axis, Index tile, Index& first, Index& last)
   {

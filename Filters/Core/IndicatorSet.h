@@ -58,6 +58,8 @@ public:
 
   double Value(MaterialId m, const Vec3& x) const;
   double ValueAndGradient(MaterialId m, const Vec3& x, Vec3& gradient) const;
+  /// f_a - f_b and its gradient, for less than two evaluations where both blocks are samples of the working lattice.
+  double Difference(MaterialId a, MaterialId b, const Vec3& x, Vec3& gradient) const;
   double ValueGradientHessian(MaterialId m, const Vec3& x, Vec3& gradient, Mat3& hessian) const;
 
   /// The materials that can be the largest anywhere in the tile of x, ascending. Never empty.
@@ -68,6 +70,9 @@ public:
   MaterialId LargestMaterial(const Vec3& x) const;
   /// The largest indicator among candidates that are not in [excluded, excluded + count); NoMaterial if none.
   RankedMaterial LargestBut(const Vec3& x, const MaterialId* excluded, int count) const;
+  /// True when a third material is larger at x than a and b, which are equal there (to first order). Asks the samples
+  /// first, which mostly tell.
+  bool IsBeaten(MaterialId a, MaterialId b, const Vec3& x) const;
 
   /// The largest material at every sample of the working lattice.
   const std::vector<MaterialId>& Labels() const { return this->Labels_; }
@@ -87,10 +92,15 @@ private:
   void FindTilesOf(MaterialId m, Index tileLayer, const std::vector<float>& largest,
     std::vector<std::vector<MaterialId>>& tiles) const;
   Index TileOf(const Vec3& x) const;
+  /// False when the sample next to x shows that m is not the largest at x.
+  bool CanWinAt(MaterialId m, const Vec3& x) const;
+  /// How far below the largest at the next sample an aligned block may be and win.
+  double Slack() const;
 
   std::vector<IndicatorBlock> Blocks;
   MaterialId Background_ = NoMaterial;
   Lattice Working_;
+  std::vector<SampleBox> Boxes; // per block
   std::vector<MaterialId> Labels_;
   // Tiles of TileSize^3 cells of the working lattice; tile t has CandidateIds[TileStarts[t] .. TileStarts[t + 1]).
   std::array<int, 3> TileDims{ 0, 0, 0 };

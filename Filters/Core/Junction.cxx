@@ -11,15 +11,13 @@ namespace
 template <int N>
 bool JunctionStep(const IndicatorSet& indicators, const MaterialId* materials, const Vec3& x, Vec3& step)
 {
-  Vec3 first;
-  const double value = indicators.ValueAndGradient(materials[0], x, first);
   Eigen::Matrix<double, N, 3> jacobian;
   Eigen::Matrix<double, N, 1> difference;
   for (int n = 0; n < N; ++n)
   {
     Vec3 gradient;
-    difference[n] = value - indicators.ValueAndGradient(materials[n + 1], x, gradient);
-    jacobian.row(n) = first - gradient;
+    difference[n] = indicators.Difference(materials[0], materials[n + 1], x, gradient);
+    jacobian.row(n) = gradient;
   }
   const Eigen::Matrix<double, N, N> normal = jacobian * jacobian.transpose();
   // Gradients of distances have length about 1 and differences up to 2: a normal matrix this small relative to its
@@ -80,11 +78,9 @@ Projection ProjectToJunction(
 
 Vec3 InterfaceNormal(const IndicatorSet& indicators, MaterialId a, MaterialId b, const Vec3& x)
 {
-  Vec3 gradientA, gradientB;
-  indicators.ValueAndGradient(a, x, gradientA);
-  indicators.ValueAndGradient(b, x, gradientB);
   // f_a grows towards the inside of a, so the normal from a into b is the negative of equation 6's.
-  const Vec3 normal = gradientB - gradientA;
+  Vec3 normal;
+  indicators.Difference(b, a, x, normal);
   const double length = normal.norm();
   return length > 1e-9 ? Vec3(normal / length) : Vec3::Zero();
 }

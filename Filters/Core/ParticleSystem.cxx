@@ -32,7 +32,8 @@ std::uint64_t MortonCode(const Lattice& frame, const Vec3& x)
 }
 
 /// Orders the particles from `first` on along a space-filling curve, so that neighbours are near in memory too.
-void SortInSpace(const Lattice& frame, std::vector<Particle>& particles, Index first)
+/// Returns the new numbers of all.
+std::vector<std::int32_t> SortInSpace(const Lattice& frame, std::vector<Particle>& particles, Index first)
 {
   std::vector<std::pair<std::uint64_t, Index>> order;
   order.reserve(particles.size() - first);
@@ -41,13 +42,17 @@ void SortInSpace(const Lattice& frame, std::vector<Particle>& particles, Index f
     order.emplace_back(MortonCode(frame, particles[n].Position), n);
   }
   std::sort(order.begin(), order.end());
+  std::vector<std::int32_t> numbers(particles.size());
+  std::iota(numbers.begin(), numbers.begin() + first, 0);
   std::vector<Particle> sorted;
   sorted.reserve(order.size());
   for (const auto& [code, n] : order)
   {
+    numbers[n] = std::int32_t(first + Index(sorted.size()));
     sorted.push_back(particles[n]);
   }
   std::copy(sorted.begin(), sorted.end(), particles.begin() + first);
+  return numbers;
 }
 }
 
@@ -64,23 +69,23 @@ SampleResult SampleCells(
   monitor.Step(0.12, "Placing particles on surfaces");
 
   const ProtectionBalls protection(result.Particles, result.Curves);
-  const std::vector<Particle> candidates = InterfaceCandidates(indicators, targetLength, options.Seed);
-  AddWhereFree(result.Particles, candidates, protection, PoissonDistance);
+  CandidatePool candidates(InterfaceCandidates(indicators, targetLength, options.Seed), protection);
+  candidates.AddWhereFree(result.Particles, PoissonDistance);
 
   for (int done = 0; done < options.Sweeps;)
   {
     monitor.Step(0.2 + 0.8 * done / options.Sweeps, "Relaxing particles");
-    SortInSpace(indicators.Working(), result.Particles, fixed);
+    candidates.Renumber(SortInSpace(indicators.Working(), result.Particles, fixed));
     std::vector<Index> moving(result.Particles.size() - fixed);
     std::iota(moving.begin(), moving.end(), fixed);
     RelaxOptions relax;
     relax.Sweeps = std::min(SweepsPerPopulation, options.Sweeps - done);
     result.MeanMove = Relax(indicators, &targetLength, result.Particles, moving, relax);
     done += relax.Sweeps;
-    DeleteCrowded(result.Particles, protection);
+    candidates.Renumber(DeleteCrowded(result.Particles, protection));
     if (done < options.Sweeps)
     {
-      AddWhereFree(result.Particles, candidates, protection, GapDistance);
+      candidates.AddWhereFree(result.Particles, GapDistance);
     }
   }
   result.CellCounts = { curves.ZeroCells, fixed - curves.ZeroCells, Index(result.Particles.size()) - fixed };

@@ -2,115 +2,210 @@
 #include "Relaxation.h"
 
 #include "Junction.h"
-#include "NeighborGrid.h"
 #include "Parallel.h"
+#include "PointTree.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
+#include <cmath>
 #include <optional>
 
 namespace LabelMesh
 {
 namespace
 {
-constexpr int SweepsPerList = 5;        // neighbour lists are kept that long
-constexpr double SweepTolerance = 0.02; // voxels: how far off their interface particles may be between sweeps
-constexpr double FinalTolerance = 0.001;
-constexpr double LargestResidual = 0.02;
-constexpr double LeastTurn = 0.2;       // cosine between the normals before and after a move
-constexpr double ListRange = 1.12;      // and so much longer than the interaction
-constexpr double Regularization = 0.05; // of the trace of the Hessian
+using Vec3f = Eigen::Vector3f;
 
-struct TangentFrame
+constexpr double FinalTolerance = 0.001; // voxels: Newton steps onto the interface end when one is shorter
+constexpr double LargestResidual = 0.02; // voxels: how far off their interface particles may be
+// Between sweeps. What is left after a Newton step is about its square over the radius of curvature, so that the
+// particle is within LargestResidual.
+constexpr double SweepTolerance = 0.15;
+constexpr double LeastTurn = 0.2;         // cosine between the normals before and after a move
+constexpr double ListRange = 1.12;        // neighbour lists reach so much farther than the interaction
+constexpr double ListedMove = 0.1;        // target lengths: lists are kept while particles have moved less on average
+constexpr float Regularization = 0.05f;   // of the trace of the Hessian
+constexpr float ShortestDistance = 0.05f; // of the interaction range: nearer pairs repel no more strongly
+
+/// What a particle's neighbours see of it, side by side in memory. Single precision: a step need not be exact, but it
+/// has the same bits everywhere.
+struct Neighbor
 {
-  Vec3 U, V;
-  explicit TangentFrame(const Vec3& normal)
+  float X, Y, Z;
+  float Inverse; ///< of the interaction range
+
+  explicit Neighbor(const Particle& p)
+    : X(float(p.Position[0]))
+    , Y(float(p.Position[1]))
+    , Z(float(p.Position[2]))
+    , Inverse(float(1.0 / (InteractionRange * p.TargetLength)))
   {
-    // The axis least along the normal, made orthogonal to it.
-    Vec3::Index axis;
-    normal.cwiseAbs().minCoeff(&axis);
-    this->U = ToTangentPlane(Vec3::Unit(axis), normal).normalized();
-    this->V = normal.cross(this->U);
   }
 };
 
-/// What a particle's neighbours see of it, side by side in memory.
-struct Neighbor
+/// Two unit vectors that span the plane with the unit normal n.
+struct TangentFrame
 {
-  Vec3 Position;
-  double TargetLength;
+  Vec3f U, V;
+  explicit TangentFrame(const Vec3f& n)
+  {
+    const float sign = std::copysign(1.0f, n[2]);
+    const float a = -1.0f / (sign + n[2]), b = n[0] * n[1] * a;
+    this->U = Vec3f(1.0f + sign * n[0] * n[0] * a, sign * b, -sign * n[0]);
+    this->V = Vec3f(b, sign + n[1] * n[1] * a, -n[1]);
+  }
+};
+
+/// The derivatives of a particle's energy in its tangent plane, lengths in its own interaction range. Sums are kept in
+/// lanes, for the compiler to compute several neighbours at once in a fixed order.
+class PlaneDerivatives
+{
+public:
+  void Add(const Neighbor& p, const TangentFrame& tangent, const std::vector<Neighbor>& neighbors,
+    const std::int32_t* first, const std::int32_t* last)
+  {
+    for (; first < last; first += Batch)
+    {
+      const int count = int(std::min<std::ptrdiff_t>(Batch, last - first));
+      alignas(16) std::array<float, Batch> dx, dy, dz, scale;
+      for (int n = 0; n < count; ++n)
+      {
+        const Neighbor& q = neighbors[first[n]];
+        dx[n] = p.X - q.X;
+        dy[n] = p.Y - q.Y;
+        dz[n] = p.Z - q.Z;
+        scale[n] = std::max(p.Inverse, q.Inverse);
+      }
+      const int end = (count + Lanes - 1) / Lanes * Lanes;
+      for (int n = count; n < end; ++n)
+      {
+        dx[n] = dy[n] = dz[n] = 1.0f / p.Inverse; // just out of range
+        scale[n] = p.Inverse;
+      }
+      for (int n = 0; n < end; n += Lanes)
+      {
+        this->AddLanes(p.Inverse, tangent, dx.data() + n, dy.data() + n, dz.data() + n, scale.data() + n);
+      }
+    }
+  }
+
+  /// The regularised Newton step along U and V, in interaction ranges; false where nothing is in range.
+  bool Step(float& u, float& v) const
+  {
+    const auto sum = [](const Row& row) { return (row[0] + row[1]) + (row[2] + row[3]); };
+    const float ru = sum(this->U), rv = sum(this->V);
+    float uu = sum(this->UU), vv = sum(this->VV);
+    const float uv = sum(this->UV), trace = uu + vv;
+    if (!(trace > 0.0f))
+    {
+      return false;
+    }
+    uu += Regularization * trace;
+    vv += Regularization * trace;
+    const float inverse = 1.0f / (uu * vv - uv * uv);
+    u = (vv * ru - uv * rv) * inverse;
+    v = (uu * rv - uv * ru) * inverse;
+    return true;
+  }
+
+private:
+  static constexpr int Lanes = 4;
+  static constexpr int Batch = 64;
+  using Row = std::array<float, Lanes>;
+
+  /// E = (1 / d - 1)^2 with d = scale |p - q|.
+  void AddLanes(
+    float unit, const TangentFrame& tangent, const float* dx, const float* dy, const float* dz, const float* scale)
+  {
+    const float ux = tangent.U[0], uy = tangent.U[1], uz = tangent.U[2];
+    const float vx = tangent.V[0], vy = tangent.V[1], vz = tangent.V[2];
+    for (int n = 0; n < Lanes; ++n)
+    {
+      const float x = unit * dx[n], y = unit * dy[n], z = unit * dz[n], ratio = scale[n] / unit;
+      const float s = ratio * ratio;
+      const float squared = std::max(s * (x * x + y * y + z * z), ShortestDistance * ShortestDistance);
+      const float i2 = 1.0f / squared, i = std::sqrt(i2);
+      const float e = std::max(i - 1.0f, 0.0f), inside = e > 0.0f ? 1.0f : 0.0f;
+      const float first = 2.0f * e * i * i2 * s;
+      const float second = (2.0f * i2 + 4.0f * e * i) * i2 * i2 * s * s * inside;
+      const float a = x * ux + y * uy + z * uz, b = x * vx + y * vy + z * vz;
+      this->U[n] += first * a;
+      this->V[n] += first * b;
+      this->UU[n] += second * a * a;
+      this->UV[n] += second * a * b;
+      this->VV[n] += second * b * b;
+    }
+  }
+
+  Row U{}, V{}; ///< minus the gradient
+  Row UU{}, UV{}, VV{};
 };
 
 /// Gauss-Newton step of one particle in its tangent plane against its neighbours.
-Vec3 EnergyStep(const Particle& p, const std::vector<Neighbor>& particles, const Index* first, const Index* last)
+Vec3 EnergyStep(
+  const Particle& p, const std::vector<Neighbor>& neighbors, const std::int32_t* first, const std::int32_t* last)
 {
-  const TangentFrame tangent(p.Normal);
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
-  for (const Index* j = first; j != last; ++j)
-  {
-    const Neighbor& q = particles[*j];
-    const double scale = 1.0 / (InteractionRange * std::min(p.TargetLength, q.TargetLength));
-    const Vec3 off = p.Position - q.Position;
-    const double length = off.norm();
-    const double d = std::max(scale * length, 0.05);
-    if (d >= 1.0 || !(length > 0.0))
-    {
-      continue;
-    }
-    const double u = 1.0 / d - 1.0; // E = u^2
-    const double first1 = -2.0 * u / (d * d) * scale;
-    const double second = (2.0 / (d * d) + 4.0 * u / d) / (d * d) * scale * scale;
-    const Eigen::Vector2d r(off.dot(tangent.U) / length, off.dot(tangent.V) / length);
-    gradient += first1 * r;
-    hessian += second * r * r.transpose();
-  }
-  const double trace = hessian.trace();
-  if (!(trace > 0.0))
+  const TangentFrame tangent(p.Normal.cast<float>());
+  PlaneDerivatives derivatives;
+  derivatives.Add(Neighbor(p), tangent, neighbors, first, last);
+  float u, v;
+  if (!derivatives.Step(u, v))
   {
     return Vec3::Zero();
   }
-  hessian += Regularization * trace * Eigen::Matrix2d::Identity();
-  const Eigen::Vector2d step = -(hessian.inverse() * gradient);
-  return step[0] * tangent.U + step[1] * tangent.V;
+  return InteractionRange * p.TargetLength * (u * tangent.U + v * tangent.V).cast<double>();
 }
 
 /// Neighbours of the moving particles as lists in one array.
 struct NeighborLists
 {
-  std::vector<Index> Starts, Ids;
+  std::vector<Index> Starts;
+  std::vector<std::int32_t> Ids;
 
   NeighborLists(const std::vector<Particle>& particles, const std::vector<Index>& moving)
   {
-    NeighborGrid grid(particles.size());
-    for (const Particle& p : particles)
-    {
-      grid.Insert(p.Position, p.TargetLength);
-    }
+    const PointTree tree(
+      Index(particles.size()), [&](Index n) -> const Vec3& { return particles[n].Position; },
+      [&](Index n) { return particles[n].TargetLength; });
     constexpr Index chunk = 1024;
-    const Index count = Index(moving.size()), chunks = (count + chunk - 1) / chunk;
+    const Index count = Index(moving.size());
     this->Starts.assign(count + 1, 0);
-    this->Ids = ParallelCollect<Index>(chunks,
-      [&](Index c, std::vector<Index>& found)
+    this->Ids = ParallelCollect<std::int32_t>((count + chunk - 1) / chunk,
+      [&](Index c, std::vector<std::int32_t>& found)
       {
-        for (Index n = c * chunk; n < std::min(count, (c + 1) * chunk); ++n)
+        PointTree::Scaled near(tree, ListRange * InteractionRange);
+        const Index end = std::min(count, (c + 1) * chunk);
+        for (Index first = c * chunk; first < end; first += PointTree::Width)
         {
-          const Particle& p = particles[moving[n]];
-          const std::size_t before = found.size();
-          grid.VisitScaled(p.Position, p.TargetLength, ListRange * InteractionRange,
-            [&](Index j, double)
-            {
-              if (j != moving[n] && Interact(p, particles[j]))
-              {
-                found.push_back(j);
-              }
-            });
-          this->Starts[n + 1] = Index(found.size() - before);
+          this->ListSome(near, particles, moving, first, std::min(end, first + PointTree::Width), found);
         }
       });
     for (Index n = 0; n < count; ++n)
     {
       this->Starts[n + 1] += this->Starts[n];
+    }
+  }
+
+private:
+  void ListSome(PointTree::Scaled& near, const std::vector<Particle>& particles, const std::vector<Index>& moving,
+    Index first, Index last, std::vector<std::int32_t>& found)
+  {
+    near.Gather(
+      first, last, [&](Index n) -> const Vec3& { return particles[moving[n]].Position; },
+      [&](Index n) { return particles[moving[n]].TargetLength; });
+    for (Index n = first; n < last; ++n)
+    {
+      const Particle& p = particles[moving[n]];
+      const std::size_t before = found.size();
+      near.ForEach(p.Position, p.TargetLength,
+        [&](Index j, double)
+        {
+          if (j != moving[n] && Interact(p, particles[j]))
+          {
+            found.push_back(std::int32_t(j));
+          }
+        });
+      this->Starts[n + 1] = Index(found.size() - before);
     }
   }
 };
@@ -120,18 +215,17 @@ bool PutOnInterface(const IndicatorSet& indicators, MaterialId a, MaterialId b, 
   double tolerance, Particle& particle)
 {
   const double voxel = indicators.VoxelSize();
-  Vec3 at = x, gradientA, gradientB, difference = Vec3::Zero();
+  Vec3 at = x, gradient = Vec3::Zero();
   double residual = voxel;
   for (int iteration = 0; iteration < 4 && residual > tolerance * voxel; ++iteration)
   {
-    const double value = indicators.ValueAndGradient(a, at, gradientA) - indicators.ValueAndGradient(b, at, gradientB);
-    difference = gradientA - gradientB;
-    const double squared = difference.squaredNorm();
+    const double value = indicators.Difference(a, b, at, gradient);
+    const double squared = gradient.squaredNorm();
     if (!(squared > 1e-2))
     {
       return false;
     }
-    Vec3 step = -value / squared * difference;
+    Vec3 step = -value / squared * gradient;
     residual = step.norm();
     if (residual > 0.5 * voxel)
     {
@@ -139,24 +233,105 @@ bool PutOnInterface(const IndicatorSet& indicators, MaterialId a, MaterialId b, 
     }
     at += step;
   }
-  if (residual > LargestResidual * voxel || (at - x).squaredNorm() > reach * reach)
+  if (residual > std::max(LargestResidual, tolerance) * voxel || (at - x).squaredNorm() > reach * reach ||
+    indicators.IsBeaten(a, b, at))
   {
     return false;
   }
-  const MaterialId pair[2] = { a, b };
-  if (indicators.Candidates(at).Count > 2)
-  {
-    const RankedMaterial rival = indicators.LargestBut(at, pair, 2);
-    if (rival.Material != NoMaterial && rival.Value > indicators.Value(a, at))
-    {
-      return false;
-    }
-  }
   particle.Position = at;
-  particle.Normal = -difference.normalized();
+  particle.Normal = -gradient.normalized();
   particle.Residual = residual;
   return true;
 }
+
+/// All sweeps over some particles.
+class Relaxer
+{
+public:
+  Relaxer(const IndicatorSet& indicators, const Grid<float>* targetLength, std::vector<Particle>& particles,
+    const std::vector<Index>& moving, const RelaxOptions& options)
+    : Indicators(indicators)
+    , TargetLength(targetLength)
+    , Particles(particles)
+    , Moving(moving)
+    , Options(options)
+    , Steps(moving.size(), Vec3::Zero())
+    , Moves(moving.size(), 0.0)
+    , Before(particles.begin(), particles.end())
+    , After(this->Before)
+  {
+  }
+
+  double Run()
+  {
+    const Index count = Index(this->Moving.size());
+    double mean = 0.0, sinceList = 0.0;
+    for (int sweep = 0; sweep < this->Options.Sweeps; ++sweep)
+    {
+      if (sweep == 0 || sinceList > ListedMove)
+      {
+        this->Lists.emplace(this->Particles, this->Moving);
+        sinceList = 0.0;
+      }
+      const double tolerance = sweep + 1 == this->Options.Sweeps ? FinalTolerance : SweepTolerance;
+      ParallelFor(0, count, 512,
+        [&](Index first, Index last)
+        {
+          for (Index n = first; n < last; ++n)
+          {
+            this->MoveOne(n, tolerance);
+          }
+        });
+      this->Before.swap(this->After);
+      double sum = 0.0;
+      for (const double move : this->Moves)
+      {
+        sum += move;
+      }
+      mean = count > 0 ? sum / double(count) : 0.0;
+      sinceList += mean;
+    }
+    return mean;
+  }
+
+private:
+  void MoveOne(Index n, double tolerance)
+  {
+    Particle& p = this->Particles[this->Moving[n]]; // neighbours read what it was before
+    const std::int32_t* const ids = this->Lists->Ids.data();
+    Vec3& previous = this->Steps[n];
+    Vec3 step = this->Options.Damping *
+        EnergyStep(p, this->Before, ids + this->Lists->Starts[n], ids + this->Lists->Starts[n + 1]) +
+      this->Options.Momentum * ToTangentPlane(previous, p.Normal);
+    const double length = step.norm(), most = this->Options.LargestStep * p.TargetLength;
+    if (length > most)
+    {
+      step *= most / length;
+    }
+    Particle moved = p;
+    const bool moves = PutOnInterface(this->Indicators, p.Materials[0], p.Materials[1], p.Position + step,
+                         p.TargetLength, tolerance, moved) &&
+      moved.Normal.dot(p.Normal) > LeastTurn;
+    previous = moves ? step : Vec3::Zero();
+    this->Moves[n] = moves ? (moved.Position - p.Position).norm() / p.TargetLength : 0.0;
+    if (moves)
+    {
+      moved.TargetLength = this->TargetLength ? this->TargetLength->Trilinear(moved.Position) : p.TargetLength;
+      p = moved;
+    }
+    this->After[this->Moving[n]] = Neighbor(p);
+  }
+
+  const IndicatorSet& Indicators;
+  const Grid<float>* TargetLength;
+  std::vector<Particle>& Particles;
+  const std::vector<Index>& Moving;
+  const RelaxOptions& Options;
+  std::vector<Vec3> Steps;
+  std::vector<double> Moves; ///< of the last sweep, in target lengths
+  std::vector<Neighbor> Before, After;
+  std::optional<NeighborLists> Lists;
+};
 }
 
 bool PutOnInterface(
@@ -168,68 +343,6 @@ bool PutOnInterface(
 double Relax(const IndicatorSet& indicators, const Grid<float>* targetLength, std::vector<Particle>& particles,
   const std::vector<Index>& moving, const RelaxOptions& options)
 {
-  const Index count = Index(moving.size());
-  std::vector<Vec3> steps(count, Vec3::Zero());
-  std::vector<double> moves(count, 0.0);
-  std::vector<Neighbor> neighbors;
-  neighbors.reserve(particles.size());
-  for (const Particle& p : particles)
-  {
-    neighbors.push_back({ p.Position, p.TargetLength });
-  }
-  std::optional<NeighborLists> lists;
-  for (int sweep = 0; sweep < options.Sweeps; ++sweep)
-  {
-    if (sweep % SweepsPerList == 0)
-    {
-      lists.emplace(particles, moving);
-    }
-    const double tolerance = sweep + 1 == options.Sweeps ? FinalTolerance : SweepTolerance;
-    ParallelFor(0, count, 512,
-      [&](Index first, Index last)
-      {
-        for (Index n = first; n < last; ++n)
-        {
-          Particle& p = particles[moving[n]]; // neighbours read their own copy of what they need
-          const Index* const ids = lists->Ids.data();
-          Vec3 step = options.Damping * EnergyStep(p, neighbors, ids + lists->Starts[n], ids + lists->Starts[n + 1]) +
-            options.Momentum * ToTangentPlane(steps[n], p.Normal);
-          const double length = step.norm(), most = options.LargestStep * p.TargetLength;
-          if (length > most)
-          {
-            step *= most / length;
-          }
-          Particle moved = p;
-          const Vec3 target = p.Position + step;
-          const bool stays =
-            !PutOnInterface(indicators, p.Materials[0], p.Materials[1], target, p.TargetLength, tolerance, moved) ||
-            moved.Normal.dot(p.Normal) <= LeastTurn;
-          if (stays)
-          {
-            steps[n].setZero();
-            moves[n] = 0.0;
-            continue;
-          }
-          steps[n] = step;
-          moves[n] = (moved.Position - p.Position).norm() / p.TargetLength;
-          moved.TargetLength = targetLength ? targetLength->Trilinear(moved.Position) : p.TargetLength;
-          p = moved;
-        }
-      });
-    ParallelFor(0, count, 4096,
-      [&](Index first, Index last)
-      {
-        for (Index n = first; n < last; ++n)
-        {
-          neighbors[moving[n]] = { particles[moving[n]].Position, particles[moving[n]].TargetLength };
-        }
-      });
-  }
-  double sum = 0.0;
-  for (const double move : moves)
-  {
-    sum += move;
-  }
-  return count > 0 ? sum / double(count) : 0.0;
+  return Relaxer(indicators, targetLength, particles, moving, options).Run();
 }
 }

@@ -2,6 +2,7 @@
 #include "SurfaceSampling.h"
 
 #include "Parallel.h"
+#include "PointTree.h"
 #include "Relaxation.h"
 
 namespace LabelMesh
@@ -99,14 +100,30 @@ private:
   std::uint32_t Seed;
 };
 
-NeighborGrid GridOf(const std::vector<Particle>& particles, std::size_t expected)
+PointTree TreeOf(const std::vector<Particle>& particles)
 {
-  NeighborGrid grid(expected);
-  for (const Particle& p : particles)
+  return PointTree(
+    Index(particles.size()), [&](Index n) -> const Vec3& { return particles[n].Position; },
+    [&](Index n) { return particles[n].TargetLength; });
+}
+
+/// Calls body(n, near) for each n in [first, last), with what is near particle n of `particles`.
+template <typename Body>
+void ForEachNear(const PointTree& tree, double factor, const std::vector<Particle>& particles, Index first, Index last,
+  const Body& body)
+{
+  PointTree::Scaled near(tree, factor);
+  for (Index begin = first; begin < last; begin += PointTree::Width)
   {
-    grid.Insert(p.Position, p.TargetLength);
+    const Index end = std::min(last, begin + PointTree::Width);
+    near.Gather(
+      begin, end, [&](Index n) -> const Vec3& { return particles[n].Position; },
+      [&](Index n) { return particles[n].TargetLength; });
+    for (Index n = begin; n < end; ++n)
+    {
+      body(n, near);
+    }
   }
-  return grid;
 }
 }
 
@@ -134,6 +151,8 @@ std::vector<Particle> InterfaceCandidates(
 
 ProtectionBalls::ProtectionBalls(const std::vector<Particle>& particles, const std::vector<Curve>& curves)
 {
+  std::vector<Vec3> centres;
+  std::vector<double> radii;
   for (const Curve& curve : curves)
   {
     for (std::size_t n = 1; n < curve.Particles.size(); ++n)
@@ -142,58 +161,125 @@ ProtectionBalls::ProtectionBalls(const std::vector<Particle>& particles, const s
       const double radius = 0.5 * ProtectionFactor * (b - a).norm();
       if (radius > 0)
       {
-        this->Balls.Insert(0.5 * (a + b), radius);
+        centres.push_back(0.5 * (a + b));
+        radii.push_back(radius);
       }
     }
+  }
+  this->Balls = NeighborGrid(radii.size());
+  for (std::size_t n = 0; n < radii.size(); ++n)
+  {
+    this->Balls.Insert(centres[n], radii[n]);
   }
 }
 
 bool ProtectionBalls::Contains(const Vec3& x) const
 {
-  bool contains = false;
-  this->Balls.VisitReaching(x, 1.0, [&](Index, double) { contains = true; });
-  return contains;
+  return this->Balls.AnyReaches(x);
 }
 
-void AddWhereFree(std::vector<Particle>& particles, const std::vector<Particle>& candidates,
-  const ProtectionBalls& protection, double distance)
+CandidatePool::CandidatePool(std::vector<Particle> candidates, const ProtectionBalls& protection)
+  : Candidates(std::move(candidates))
 {
-  NeighborGrid grid = GridOf(particles, particles.size() + candidates.size() / 4);
-  const auto isFree = [&](const Particle& candidate, Index first)
-  {
-    bool free = true;
-    grid.VisitScaled(candidate.Position, candidate.TargetLength, distance,
-      [&](Index n, double squared)
-      {
-        const double core = HardCore * std::min(candidate.TargetLength, particles[n].TargetLength);
-        free = free && (n < first || (squared > core * core && !Interact(candidate, particles[n])));
-      });
-    return free;
-  };
-  // Against those that are there already in parallel; then one after another against those that were added.
-  const Index before = Index(particles.size());
-  std::vector<char> possible(candidates.size());
-  ParallelFor(0, Index(candidates.size()), 1024,
+  std::vector<char> isProtected(this->Candidates.size());
+  ParallelFor(0, Index(this->Candidates.size()), 1024,
     [&](Index first, Index last)
     {
       for (Index n = first; n < last; ++n)
       {
-        possible[n] = isFree(candidates[n], 0) && !protection.Contains(candidates[n].Position);
+        isProtected[n] = protection.Contains(this->Candidates[n].Position);
       }
     });
-  for (std::size_t n = 0; n < candidates.size(); ++n)
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < this->Candidates.size(); ++n)
   {
-    if (possible[n] && isFree(candidates[n], before))
+    if (!isProtected[n])
     {
-      particles.push_back(candidates[n]);
-      grid.Insert(candidates[n].Position, candidates[n].TargetLength);
+      this->Candidates[kept++] = this->Candidates[n];
+    }
+  }
+  this->Candidates.resize(kept);
+  this->Blockers.assign(kept, -1);
+}
+
+void CandidatePool::Renumber(const std::vector<std::int32_t>& numbers)
+{
+  ParallelFor(0, Index(this->Blockers.size()), 65536,
+    [&](Index first, Index last)
+    {
+      for (Index n = first; n < last; ++n)
+      {
+        this->Blockers[n] = this->Blockers[n] >= 0 ? numbers[this->Blockers[n]] : -1;
+      }
+    });
+}
+
+void CandidatePool::AddWhereFree(std::vector<Particle>& particles, double distance)
+{
+  const auto collides = [&](const Particle& candidate, const Particle& other, double squared)
+  {
+    const double least = std::min(candidate.TargetLength, other.TargetLength);
+    return squared < distance * distance * least * least &&
+      (squared <= HardCore * HardCore * least * least || Interact(candidate, other));
+  };
+  // Against those that are there already in parallel; then one after another against those that were added.
+  const Index before = Index(particles.size());
+  {
+    const PointTree there = TreeOf(particles);
+    ParallelFor(0, Index(this->Candidates.size()), 1024,
+      [&](Index first, Index last)
+      {
+        PointTree::Scaled near(there, distance);
+        for (Index n = first; n < last; ++n)
+        {
+          const Particle& candidate = this->Candidates[n];
+          std::int32_t& blocker = this->Blockers[n];
+          const auto blocks = [&](Index other, double squared)
+          {
+            const bool found = collides(candidate, particles[other], squared);
+            blocker = found ? std::int32_t(other) : blocker;
+            return found;
+          };
+          // Most are still blocked by the particle that blocked them last time.
+          if (blocker >= 0 && blocks(blocker, (particles[blocker].Position - candidate.Position).squaredNorm()))
+          {
+            continue;
+          }
+          blocker = -1;
+          near.Gather(
+            n, n + 1, [&](Index) -> const Vec3& { return candidate.Position; },
+            [&](Index) { return candidate.TargetLength; });
+          near.Any(candidate.Position, candidate.TargetLength, blocks);
+        }
+      });
+  }
+  NeighborGrid added;
+  for (std::size_t n = 0; n < this->Candidates.size(); ++n)
+  {
+    const Particle& candidate = this->Candidates[n];
+    if (this->Blockers[n] >= 0)
+    {
+      continue;
+    }
+    const bool isFree = !added.AnyScaled(candidate.Position, candidate.TargetLength, distance,
+      [&](Index other, double squared)
+      {
+        const bool found = collides(candidate, particles[before + other], squared);
+        this->Blockers[n] = found ? std::int32_t(before + other) : -1;
+        return found;
+      });
+    if (isFree)
+    {
+      this->Blockers[n] = std::int32_t(particles.size());
+      particles.push_back(candidate);
+      added.Insert(candidate.Position, candidate.TargetLength);
     }
   }
 }
 
-void DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& protection)
+std::vector<std::int32_t> DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& protection)
 {
-  const NeighborGrid grid = GridOf(particles, particles.size());
+  const PointTree tree = TreeOf(particles);
   // Who is too close to whom, in parallel; then who stays, one after another.
   struct Conflict
   {
@@ -204,27 +290,28 @@ void DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& prot
   const std::vector<Conflict> conflicts = ParallelCollect<Conflict>((count + chunk - 1) / chunk,
     [&](Index c, std::vector<Conflict>& found)
     {
-      for (Index i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i)
-      {
-        const Particle& p = particles[i];
-        if (p.CellDimension < 2)
+      ForEachNear(tree, CrowdedDistance, particles, c * chunk, std::min(count, (c + 1) * chunk),
+        [&](Index i, const PointTree::Scaled& near)
         {
-          continue;
-        }
-        if (protection.Contains(p.Position))
-        {
-          found.push_back({ i, -1 });
-        }
-        grid.VisitScaled(p.Position, p.TargetLength, CrowdedDistance,
-          [&](Index j, double squared)
+          const Particle& p = particles[i];
+          if (p.CellDimension < 2)
           {
-            const double core = HardCore * std::min(p.TargetLength, particles[j].TargetLength);
-            if (j < i && (squared < core * core || Interact(p, particles[j])))
+            return;
+          }
+          if (protection.Contains(p.Position))
+          {
+            found.push_back({ i, -1 });
+          }
+          near.ForEach(p.Position, p.TargetLength,
+            [&](Index j, double squared)
             {
-              found.push_back({ i, j });
-            }
-          });
-      }
+              const double core = HardCore * std::min(p.TargetLength, particles[j].TargetLength);
+              if (j < i && (squared < core * core || Interact(p, particles[j])))
+              {
+                found.push_back({ i, j });
+              }
+            });
+        });
     });
   // Of a crowded pair the later one goes; particles of 0- and 1-cells come first.
   std::vector<char> alive(particles.size(), 1);
@@ -235,14 +322,17 @@ void DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& prot
       alive[conflict.Later] = 0;
     }
   }
+  std::vector<std::int32_t> numbers(particles.size(), -1);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < particles.size(); ++i)
   {
     if (alive[i])
     {
+      numbers[i] = std::int32_t(kept);
       particles[kept++] = particles[i];
     }
   }
   particles.resize(kept);
+  return numbers;
 }
 }

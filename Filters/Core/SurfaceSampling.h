@@ -33,13 +33,27 @@ private:
   NeighborGrid Balls;
 };
 
-/// Adds each candidate, in order, that is at least `distance` from all particles that it interacts with, the hard core
-/// from all, and in no protection ball.
-void AddWhereFree(std::vector<Particle>& particles, const std::vector<Particle>& candidates,
-  const ProtectionBalls& protection, double distance);
+/// Places where a particle could be.
+class CandidatePool
+{
+public:
+  /// Drops those in protection balls.
+  CandidatePool(std::vector<Particle> candidates, const ProtectionBalls& protection);
 
-/// Deletes 2-cell particles that are crowded or in a protection ball. Those of other cells stay.
-void DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& protection);
+  /// Adds each candidate, in order, that is at least `distance` from all particles that it interacts with, and the hard
+  /// core from all.
+  void AddWhereFree(std::vector<Particle>& particles, double distance);
+  /// To be told when particles get new numbers, by their old ones; -1: deleted.
+  void Renumber(const std::vector<std::int32_t>& numbers);
+
+private:
+  std::vector<Particle> Candidates;
+  std::vector<std::int32_t> Blockers; ///< a particle that was too near to each, tried first; -1: none
+};
+
+/// Deletes 2-cell particles that are crowded or in a protection ball. Those of other cells stay. Returns the new
+/// numbers of all, -1 for those deleted.
+std::vector<std::int32_t> DeleteCrowded(std::vector<Particle>& particles, const ProtectionBalls& protection);
 }
 
 #endif

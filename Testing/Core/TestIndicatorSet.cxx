@@ -119,6 +119,11 @@ TEST(IndicatorSet, CandidatesHoldTheWinnerEverywhereAndFewOthers)
       EXPECT_LE(ranked[n].Value, ranked[n - 1].Value);
     }
     EXPECT_NE(fields->LargestBut(x, &best, 1).Material, best);
+    if (count > 2)
+    {
+      EXPECT_FALSE(fields->IsBeaten(ranked[0].Material, ranked[1].Material, x));
+      EXPECT_TRUE(fields->IsBeaten(ranked[1].Material, ranked[2].Material, x) || ranked[0].Value == ranked[1].Value);
+    }
     candidates += fields->Candidates(x).Count;
   }
   EXPECT_LT(candidates / double(points.size()), 12);
@@ -151,6 +156,45 @@ TEST(IndicatorSet, BlocksMayBeCroppedShiftedAndFiner)
     {
       ASSERT_EQ(set.Labels()[at], ball(x) > 0 ? 1 : 0) << x.transpose();
       ASSERT_EQ(set.LargestMaterial(x), ball(x) > 0 ? 1 : 0) << x.transpose();
+    }
+  }
+}
+
+TEST(IndicatorSet, DifferencesAreThoseOfTheValues)
+{
+  // Both blocks of the working lattice, one cropped (near and beyond its border), and one on a lattice of its own.
+  const Lattice working = MakeLattice(30, 30, 30, Vec3(1.0, 0.75, 1.5), Vec3(1, 2, 3));
+  Lattice cropped = MakeLattice(12, 14, 10, working.Spacing, working.Position(5, 6, 7));
+  const Lattice finer = MakeLattice(31, 31, 31, Vec3(0.5, 0.5, 0.5), working.Position(3, 8, 4));
+  const auto sample = [](const Lattice& frame, const Field& f)
+  {
+    std::vector<float> values;
+    for (Index at = 0; at < frame.Size(); ++at)
+    {
+      const auto c = frame.Coordinates(at);
+      values.push_back(float(f(frame.Position(c[0], c[1], c[2]))));
+    }
+    return values;
+  };
+  const Vec3 centre = working.Position(11, 13, 12);
+  const auto outside = sample(working, Not(Ball(centre, 4))), first = sample(cropped, Ball(centre, 4)),
+             second = sample(finer, Ball(centre, 3));
+  const IndicatorSet set(
+    { { 0, working, outside.data(), 9.0 }, { 1, cropped, first.data(), -4.0 }, { 2, finer, second.data(), -3.0 } }, 0,
+    working);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-1, 30);
+  for (int n = 0; n < 2000; ++n)
+  {
+    const Vec3 x = working.Position(uniform(random), uniform(random), uniform(random));
+    for (const auto& [a, b] : { std::pair(0, 1), std::pair(1, 0), std::pair(1, 2) })
+    {
+      Vec3 gradient, gradientA, gradientB;
+      const double difference = set.Difference(MaterialId(a), MaterialId(b), x, gradient);
+      const double expected =
+        set.ValueAndGradient(MaterialId(a), x, gradientA) - set.ValueAndGradient(MaterialId(b), x, gradientB);
+      ASSERT_NEAR(difference, expected, 2e-5) << x.transpose();
+      ASSERT_LT((gradient - (gradientA - gradientB)).norm(), 2e-5) << x.transpose();
     }
   }
 }

@@ -207,3 +207,52 @@ TEST(ProtectionBalls, HoldTheDiametralBallsOfTheSegments)
   EXPECT_FALSE(balls.Contains(Vec3(11, 11.06, 10)));
   EXPECT_FALSE(balls.Contains(Vec3(12.1, 10, 10)));
 }
+
+TEST(CandidatePool, FillsGapsAndKnowsWhoBlocksThem)
+{
+  const SampledFields fields = TwoBalls();
+  const Grid<float> lengths = Constant(2.0f);
+  const std::vector<Particle> candidates = InterfaceCandidates(*fields, lengths, 1);
+  const ProtectionBalls none({}, {});
+  CandidatePool pool(candidates, none);
+  std::vector<Particle> particles;
+  pool.AddWhereFree(particles, PoissonDistance);
+  const std::vector<Particle> filled = particles;
+  // Every candidate is near a particle, and no two particles that interact are near each other.
+  for (const Particle& candidate : candidates)
+  {
+    EXPECT_TRUE(std::any_of(particles.begin(), particles.end(),
+      [&](const Particle& p) { return (p.Position - candidate.Position).norm() <= PoissonDistance * 2.0; }));
+  }
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      EXPECT_TRUE((particles[i].Position - particles[j].Position).norm() >= PoissonDistance * 2.0 ||
+        !Interact(particles[i], particles[j]));
+    }
+  }
+  pool.AddWhereFree(particles, PoissonDistance);
+  EXPECT_EQ(particles.size(), filled.size());
+  // Every third one is deleted: a pool that was told fills the gaps as a new one does.
+  std::vector<std::int32_t> numbers(particles.size(), -1);
+  std::vector<Particle> fewer;
+  for (std::size_t n = 0; n < particles.size(); ++n)
+  {
+    if (n % 3 != 0)
+    {
+      numbers[n] = std::int32_t(fewer.size());
+      fewer.push_back(particles[n]);
+    }
+  }
+  std::vector<Particle> told = fewer, anew = fewer;
+  pool.Renumber(numbers);
+  pool.AddWhereFree(told, GapDistance);
+  CandidatePool(candidates, none).AddWhereFree(anew, GapDistance);
+  ASSERT_EQ(told.size(), anew.size());
+  EXPECT_GT(told.size(), fewer.size());
+  for (std::size_t n = 0; n < told.size(); ++n)
+  {
+    EXPECT_EQ(told[n].Position, anew[n].Position);
+  }
+}
