@@ -62,7 +62,7 @@ public:
   ///@}
 
   ///@{
-  /// The radius ratio below which a triangle is mended. Default 0.5.
+  /// The radius ratio below which a triangle is mended. Default 0.75.
   vtkSetClampMacro(RepairBelow, double, 0.0, 0.9);
   vtkGetMacro(RepairBelow, double);
   ///@}
@@ -95,7 +95,7 @@ protected:
 
   int RepairRounds = 8;
   int ImprovePasses = 3;
-  double RepairBelow = 0.5;
+  double RepairBelow = 0.75;
   vtkIdType NumberOfTetrahedra = 0;
   int RoundsDone = 0;
   vtkIdType WrongFaces = 0;

@@ -152,7 +152,7 @@ public:
 
   ///@{
   /// vtkDelaunayLabelMesh: rounds of repair at most (8); passes of improvement (3); the radius ratio below which a
-  /// triangle is mended (0.5).
+  /// triangle is mended (0.75).
   void SetRepairRounds(int rounds);
   int GetRepairRounds() const;
   void SetImprovePasses(int passes);

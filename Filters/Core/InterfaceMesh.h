@@ -5,6 +5,8 @@
 
 #include "Particles.h"
 
+#include <Eigen/Geometry>
+
 #include <vector>
 
 namespace LabelMesh
@@ -23,7 +25,13 @@ struct InterfaceMesh
 };
 
 /// Radius ratio 2 r_in / r_circ of a triangle: 1 equilateral, 0 degenerate.
-double RadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c);
+inline double RadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  // r_in = A / s and r_circ = l0 l1 l2 / (4 A) with s half the perimeter.
+  const double l0 = (b - a).norm(), l1 = (c - b).norm(), l2 = (a - c).norm();
+  const double product = l0 * l1 * l2;
+  return product > 0.0 ? 4.0 * (b - a).cross(c - a).squaredNorm() / ((l0 + l1 + l2) * product) : 0.0;
+}
 }
 
 #endif

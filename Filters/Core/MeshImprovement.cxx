@@ -14,6 +14,7 @@ namespace
 {
 constexpr double LeastFlipGain = 1e-3; // of the cost of two triangles
 constexpr double FlatEnough = 0.85;    // cosine between triangles, and to what was there
+constexpr double LeastRatioToLeave = 0.85;
 
 /// What a flip of the edge (a, b) would gain; 0 where it must not be, since triangles would turn away from where they
 /// face.
@@ -46,7 +47,7 @@ struct FlipCandidate
   Index A, B;
 };
 
-/// Flips, the best first, all that gain; each once.
+/// Flips, the best first, all edges at active vertices that gain, and makes their vertices active.
 Index FlipEdges(SurfaceComplex& complex, std::vector<char>& active)
 {
   constexpr Index chunk = 2048;
@@ -56,11 +57,15 @@ Index FlipEdges(SurfaceComplex& complex, std::vector<char>& active)
     {
       for (Index t = n * chunk; t < std::min(count, (n + 1) * chunk); ++t)
       {
-        for (int i = 0; i < 3 && complex.IsAlive(t); ++i)
+        // No flip helps two triangles that are better than this.
+        if (!complex.IsAlive(t) || complex.Ratio(t) > LeastRatioToLeave)
+        {
+          continue;
+        }
+        for (int i = 0; i < 3; ++i)
         {
           const Index a = complex.Triangle(t).Vertices[i], b = complex.Triangle(t).Vertices[(i + 1) % 3];
-          // Of an edge's two triangles, which run along it in opposite senses, one asks.
-          const double gain = a < b && (active[a] || active[b]) ? FlipGain(complex, a, b) : 0.0;
+          const double gain = active[a] || active[b] ? FlipGain(complex, a, b) : 0.0;
           if (gain > 0.0)
           {
             found.push_back({ gain, a, b });
@@ -92,11 +97,17 @@ ImproveResult ImproveMesh(
 {
   ImproveResult result;
   std::vector<char> active(std::size_t(complex.NumberOfVertices()), 1);
+  std::vector<std::vector<Index>> sets;
   for (int pass = 0; pass < options.Passes; ++pass)
   {
     monitor.Step(double(pass) / options.Passes, "Improving triangles");
-    result.Flips += FlipEdges(complex, active);
-    result.Moves += SmoothVertices(indicators, complex, IndependentSets(complex), active);
+    const Index flips = FlipEdges(complex, active);
+    if (pass == 0 || flips > 0)
+    {
+      sets = IndependentSets(complex);
+    }
+    result.Flips += flips;
+    result.Moves += SmoothVertices(indicators, complex, sets, active);
   }
   const MendResult mended = MendTriangles(indicators, complex, options.WantedRatio);
   result.Mended = mended.Mended;

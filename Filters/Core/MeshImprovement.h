@@ -11,8 +11,8 @@ namespace LabelMesh
 {
 struct ImproveOptions
 {
-  int Passes = 4;           ///< of flipping edges and smoothing vertices
-  double WantedRatio = 0.5; ///< triangles below are mended by collapses and splits
+  int Passes = 4;            ///< of flipping edges and smoothing vertices
+  double WantedRatio = 0.75; ///< triangles below are mended by collapses and splits
 };
 
 struct ImproveResult

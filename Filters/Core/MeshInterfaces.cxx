@@ -11,6 +11,8 @@ namespace LabelMesh
 {
 namespace
 {
+constexpr double PoorRatio = 0.5; // what repair by particles asks of triangles; the rest is for edits of the mesh
+
 /// Counts what is wrong with a mesh.
 void Judge(const InterfaceMesh& mesh, double wantedRatio, MeshResult& result)
 {
@@ -36,7 +38,7 @@ void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const
   {
     return;
   }
-  LocalRepair repair(indicators, complex, options.RepairBelow);
+  LocalRepair repair(indicators, complex, std::min(options.RepairBelow, PoorRatio));
   for (; result.Rounds < options.RepairRounds && !faults.empty(); ++result.Rounds)
   {
     Index mended = 0;

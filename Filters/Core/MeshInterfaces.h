@@ -11,9 +11,9 @@ namespace LabelMesh
 {
 struct MeshOptions
 {
-  int RepairRounds = 8;     ///< at most; it ends sooner when no fault is left
-  int ImprovePasses = 3;    ///< of flipping edges and smoothing vertices
-  double RepairBelow = 0.5; ///< radius ratio under which a triangle is mended
+  int RepairRounds = 8;      ///< at most; it ends sooner when no fault is left
+  int ImprovePasses = 3;     ///< of flipping edges and smoothing vertices
+  double RepairBelow = 0.75; ///< radius ratio under which a triangle is mended
 };
 
 struct MeshResult

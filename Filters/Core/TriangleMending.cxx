@@ -14,7 +14,7 @@ namespace LabelMesh
 namespace
 {
 constexpr int MostRounds = 4;      // an edit may make way for the next
-constexpr int SmoothingSweeps = 4; // after an edit
+constexpr int SmoothingSweeps = 3; // after an edit
 constexpr double LeastTurn = 0.5;  // cosine between a triangle's normals before and after an edit
 
 /// Ascending, each once.
@@ -51,7 +51,8 @@ public:
   bool Mend(Index triangle)
   {
     const std::array<Index, 3> corners = this->Complex.Triangle(triangle).Vertices;
-    const std::vector<Index> near = this->Surroundings({ corners.begin(), corners.end() });
+    const std::vector<Index> ring = this->Around({ corners.begin(), corners.end() });
+    const std::vector<Index> near = this->Around(ring);
     const double before = this->Faults(near);
     double best = before;
     int chosen = -1;
@@ -59,7 +60,7 @@ public:
     for (int n = 0; n < int(edits.size()); ++n)
     {
       this->Complex.Begin();
-      const double after = edits[n]() ? this->Settle(near) : before;
+      const double after = edits[n]() ? this->Settle(ring, near) : before;
       this->Complex.Rollback();
       if (after < best)
       {
@@ -73,7 +74,7 @@ public:
     }
     this->Complex.Begin();
     edits[chosen]();
-    this->Settle(near);
+    this->Settle(ring, near);
     this->Complex.Commit();
     return true;
   }
@@ -93,11 +94,6 @@ private:
     MakeUnique(near);
     return near;
   }
-  std::vector<Index> Surroundings(const std::vector<Index>& vertices) const
-  {
-    return this->Around(this->Around(vertices));
-  }
-
   std::vector<Index> TrianglesAt(const std::vector<Index>& vertices) const
   {
     std::vector<Index> triangles;
@@ -119,23 +115,19 @@ private:
     return faults;
   }
 
-  /// Smooths the vertices near an edit and those that it added; returns the faults that are left.
-  double Settle(std::vector<Index> near)
+  /// Smooths the ring of an edit and the vertices that it added; returns the faults that are left near it.
+  double Settle(std::vector<Index> ring, std::vector<Index> near)
   {
     for (Index v = this->Added; v < this->Complex.NumberOfVertices(); ++v)
     {
+      ring.push_back(v);
       near.push_back(v);
     }
     for (int sweep = 0; sweep < SmoothingSweeps; ++sweep)
     {
-      double largest = 0.0;
-      for (const Index v : near)
+      for (const Index v : ring)
       {
-        largest = std::max(largest, SmoothVertex(this->Indicators, this->Complex, v));
-      }
-      if (largest == 0.0)
-      {
-        break;
+        SmoothVertex(this->Indicators, this->Complex, v);
       }
     }
     return this->Faults(near);

@@ -6,14 +6,21 @@
 #include "IndicatorSet.h"
 #include "SurfaceComplex.h"
 
+#include <algorithm>
+
 namespace LabelMesh
 {
 /// What a triangle of radius ratio q below the wanted one costs: 1 and up to 111, rather several that lack a little
-/// than one that lacks much. 0 from the wanted ratio on.
+/// than one that lacks much; and as much again for what it lacks of a poor ratio. 0 from the wanted ratio on.
 inline double TriangleFault(double q, double wanted)
 {
-  const double lack = q < wanted ? 1.0 - q / wanted : 0.0;
-  return lack > 0.0 ? 1.0 + 10.0 * lack + 100.0 * lack * lack : 0.0;
+  constexpr double poor = 0.5;
+  const auto cost = [q](double ratio)
+  {
+    const double lack = q < ratio ? 1.0 - q / ratio : 0.0;
+    return lack > 0.0 ? 1.0 + 10.0 * lack + 100.0 * lack * lack : 0.0;
+  };
+  return cost(wanted) + 5.0 * cost(std::min(poor, wanted));
 }
 
 struct MendResult

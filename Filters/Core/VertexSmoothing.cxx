@@ -102,18 +102,21 @@ std::array<Index, 2> OppositeEdge(const InterfaceTriangle& triangle, Index v)
 
 double SmoothVertex(const IndicatorSet& indicators, SurfaceComplex& complex, Index v)
 {
-  const Particle& p = complex.Vertex(v);
   if (!MayMove(complex, v))
   {
     return 0.0;
   }
+  const Particle& p = complex.Vertex(v);
+  thread_local std::vector<std::array<Vec3, 2>> edges; // opposite v: memory kept from vertex to vertex
+  edges.clear();
   Energy energy;
   double cost = 0.0;
   for (const std::int32_t t : complex.Star(v))
   {
     const auto [b, c] = OppositeEdge(complex.Triangle(t), v);
-    energy.Add(p.Position, complex.Vertex(b).Position, complex.Vertex(c).Position);
-    cost += TriangleCost(complex.Ratio(t));
+    edges.push_back({ complex.Vertex(b).Position, complex.Vertex(c).Position });
+    energy.Add(p.Position, edges.back()[0], edges.back()[1]);
+    cost += TriangleCost(RadiusRatio(p.Position, edges.back()[0], edges.back()[1]));
   }
   Vec3 step = NewtonStep(indicators, p, energy);
   const double length = step.norm(), most = LongestStep * p.TargetLength;
@@ -122,27 +125,24 @@ double SmoothVertex(const IndicatorSet& indicators, SurfaceComplex& complex, Ind
     step *= most / length;
   }
   // Whether the star at x costs less, and faces where it did.
-  const auto helps = [&](const Vec3& x)
+  const auto helps = [&p, cost](const Vec3& x)
   {
     double after = 0.0;
-    for (const std::int32_t t : complex.Star(v))
+    for (const auto& [b, c] : edges)
     {
-      const auto [b, c] = OppositeEdge(complex.Triangle(t), v);
-      const Vec3 &atB = complex.Vertex(b).Position, &atC = complex.Vertex(c).Position;
-      const Vec3 before = (atB - p.Position).cross(atC - p.Position), now = (atB - x).cross(atC - x);
-      if (now.dot(before) < LeastTurnOfFace * now.norm() * before.norm())
+      const Vec3 before = (b - p.Position).cross(c - p.Position), now = (b - x).cross(c - x);
+      if (now.dot(before) < LeastTurnOfFace * std::sqrt(now.squaredNorm() * before.squaredNorm()))
       {
         return false;
       }
-      after += TriangleCost(RadiusRatio(x, atB, atC));
+      after += TriangleCost(RadiusRatio(x, b, c));
     }
     return after < cost - LeastGain;
   };
   for (int attempt = 0; attempt <= Halvings && step.norm() > ShortestStep * p.TargetLength; ++attempt, step *= 0.5)
   {
     Particle moved;
-    if (helps(p.Position + step) &&
-      PlaceOnJunction(indicators, p.Materials, p.Position + step, p.TargetLength, moved) && helps(moved.Position))
+    if (PlaceOnJunction(indicators, p.Materials, p.Position + step, p.TargetLength, moved) && helps(moved.Position))
     {
       const double move = (moved.Position - p.Position).norm() / p.TargetLength;
       complex.SetVertex(v, moved);
