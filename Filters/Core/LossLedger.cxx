@@ -190,6 +190,15 @@ private:
       : stage;
   }
 
+  LossStage StageOfPart(Index p) const
+  {
+    // A particle beside a part may belong to another part of the label: alone it does not prove that the part was
+    // there.
+    const MaterialId id = this->Input.Voxels.Parts[p].Id;
+    const LossStage stage = this->StageOf(Gone(this->Input.TightVolumes, id), this->KeptByTighten[p], this->Sampled[p]);
+    return stage == LossStage::Mesh && this->Input.TightIds.empty() ? LossStage::AfterSplit : stage;
+  }
+
   LossStage StageOfPair(const Pair& pair) const
   {
     for (const MaterialId id : pair)
@@ -218,9 +227,7 @@ private:
       }
       else if (!this->KeptInMesh[p])
       {
-        const LossStage stage =
-          this->StageOf(Gone(this->Input.TightVolumes, part.Id), this->KeptByTighten[p], this->Sampled[p]);
-        this->Add(part, some[{ part.Id, stage }]);
+        this->Add(part, some[{ part.Id, this->StageOfPart(Index(p)) }]);
       }
     }
     for (std::size_t id = 0; id < lost.size(); ++id)

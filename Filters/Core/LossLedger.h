@@ -71,7 +71,8 @@ struct LedgerInput
 ///    or, without TightIds, when no particle knows of it: particles lie on all that smoothing has left, if it is not
 ///    much smaller than their spacing;
 ///  - Sample, when it is there after tightening but no particle knows of it (for a part: within a voxel of it);
-///  - Mesh, when particles know of it.
+///  - Mesh, when particles know of it; for a part only with TightIds, since the particles beside it may be those of
+///    another part.
 std::vector<Loss> FindLosses(const LedgerInput& input);
 }
 

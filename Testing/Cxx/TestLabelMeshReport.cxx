@@ -402,6 +402,10 @@ TEST(LabelMeshReport, StagesOfLosses)
   EXPECT_EQ(stageOf(2), "ParticleSampleCells");
   report->RemoveAllInputConnections(3);
   EXPECT_EQ(stageOf(2), "Tighten") << "particles lie on all that smoothing has left";
+  points->SetPoint(0, 12.4, 9, 7);
+  points->Modified();
+  particles->Modified();
+  EXPECT_EQ(stageOf(2), "Tighten or later") << "a particle beside the speck may be of another part";
 }
 
 TEST(LabelMeshReport, ErrorMap)

@@ -7,7 +7,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from common import blocks, content, open_volume, output  # noqa: E402
 
-from paraview.simple import Calculator, LoadPlugin, XMLPolyDataReader  # noqa: E402
+from paraview.simple import Calculator, LoadPlugin, OutputPort, XMLPolyDataReader  # noqa: E402
 
 LoadPlugin(os.environ["LABELMESH_PLUGIN"], remote=False, ns=globals())
 
@@ -83,6 +83,15 @@ for row in (1, 2):
     assert abs(volume_of_mesh / of_voxels - 1) < 0.12, (row, volume_of_mesh, of_voxels)
     assert abs(volume_of_mesh / of_tight - 1) < 0.03, (row, volume_of_mesh, of_tight)
 assert output(report, 1).GetNumberOfRows() == 3, output(report, 1).GetNumberOfRows()
+assert output(report, 2).GetNumberOfRows() == 0, output(report, 2).GetNumberOfRows()
+assert output(report, 3).GetNumberOfPoints() == 0
+assert table.GetFieldData().GetAbstractArray("Certificate").GetValue(0).startswith("certified: ")
+everything = LabelMeshReport(Input=mesh, LabelImage=volume, LabelArray=LABELS, Distances=tighten, ErrorMap=1,
+                             RebuiltLabels=OutputPort(indicators, 1),
+                             Particles=OutputPort(particles, 0))
+assert output(everything, 2).GetNumberOfRows() == 0
+distances = output(everything, 3).GetPointData().GetArray("DistanceToVoxels")
+assert 0 <= distances.GetRange()[0] and distances.GetRange()[1] < 1.5, distances.GetRange()
 assert output(LabelMeshReport(Input=grid)).GetNumberOfRows() == 3
 
 # The command line makes the same mesh as Label Mesher with its defaults.

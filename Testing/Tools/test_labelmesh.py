@@ -151,6 +151,7 @@ class TestOutput(CommandLineTest):
         self.assertEqual(report["method"], "grid")
         self.assertAlmostEqual(report["triangles"], 800, delta=20)
         self.assertNotIn("cells", report)
+        self.assertTrue(all(entry["stage"] == "GridLabelMesh" for entry in report["lost"]))
 
     def test_files_of_earlier_runs_are_replaced_and_others_kept(self):
         (self.folder / "s").mkdir()
@@ -174,6 +175,58 @@ class TestOutput(CommandLineTest):
         report = json.loads((self.folder / "r.json").read_text())
         self.assertEqual([m["label"] for m in report["materials"]], [2])
         self.assertEqual(report["lost"], [])
+
+    def test_certificate(self):
+        """What is said at the end, and the same in the report."""
+        result = self.mesh(self.spheres, "-o", "m.vtp", "--report", "r.json", "--error-map", "e.vtp")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertTrue(report["certified"])
+        last = result.stderr.splitlines()[-1]
+        self.assertEqual(last, "labelmesh: " + report["certificate"])
+        self.assertRegex(last, rf"certified: {report['triangles']} triangles, .*worst radius ratio 0\.\d+ at \(")
+        self.assertEqual((report["self_intersecting_pairs"], report["degenerate_triangles"]), (0, 0))
+        mesh = read_mesh(self.folder / "m.vtp")
+        worst = mesh.GetCellData().GetArray("RadiusRatio").GetValue(report["worst_triangle"]["triangle"])
+        self.assertAlmostEqual(worst, report["min_radius_ratio"], places=4)
+        for material in report["materials"]:
+            self.assertTrue(material["certified"])
+            for key, value in (("genus", 0), ("parts", 1), ("cavities", 0), ("euler", 2), ("components", 1)):
+                self.assertEqual((material[key], material["voxel_" + key]), (value, value), key)
+            self.assertEqual(material["voxels"], int((SPHERES == material["label"]).sum()))
+        self.assertEqual([pair["labels"] for pair in report["interfaces"]], [[1, 0], [1, 2], [2, 0]])
+        self.assertEqual(report["misclassified_voxels"], sum(
+            material["misclassified_voxels"] for material in report["materials"] + [report["background"]]))
+        self.assertLess(report["misclassified_voxels"], 0.01 * SPHERES.size)
+        # The same triangles, no point farther from the voxels' own interface than a voxel.
+        error_map = read_mesh(self.folder / "e.vtp")
+        self.assertEqual(error_map.GetNumberOfCells(), report["triangles"])
+        distances = vtk_to_numpy(error_map.GetPointData().GetArray("DistanceToVoxels"))
+        self.assertTrue(np.all(distances >= 0) and distances.max() < 1, distances.max())
+        self.assertGreater(report["seconds"]["Report"], 0)
+        self.assertEqual(self.mesh(self.spheres, "-o", "m.vtp", "--quiet").stderr, "")
+
+    def test_ledger(self):
+        labels = SPHERES.copy()
+        labels[2, 2, 2] = 9
+        labels[2, 2, 28] = labels[28, 3, 3] = 2
+        make_volumes.write_mha(self.folder / "specks.mha", labels)
+        result = self.mesh("specks.mha", "-o", "m.vtp", "--report", "r.json")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertTrue(report["certified"], "what is there is sound")
+        lost = {(str(entry.get("label", entry.get("labels"))), entry["stage"]): entry for entry in report["lost"]}
+        self.assertEqual(set(lost), {("9", "Tighten"), ("2", "Tighten"), ("[9, 0]", "Tighten")})
+        self.assertEqual((lost["2", "Tighten"]["parts"], lost["2", "Tighten"]["voxels"]), (2, 2))
+        self.assertEqual(lost["2", "Tighten"]["position"], [28, 2, 2])
+        material = report["materials"][1]
+        self.assertEqual((material["parts"], material["voxel_parts"], material["lost_parts"]), (1, 3, 2))
+        for entry in report["lost"]:
+            self.assertIn("finer voxels", entry["advice"])
+        self.assertRegex(result.stderr, r"lost by Tighten: 1 label \(9\), 2 parts of labels and 1 pair of labels")
+        # And the advice helps.
+        finer = np.kron(labels, np.ones((3, 3, 3), labels.dtype))
+        make_volumes.write_mha(self.folder / "finer.mha", finer, spacing=(1 / 3, 1 / 3, 1 / 3))
+        self.mesh("finer.mha", "-o", "m.vtp", "--report", "r.json", "--quiet")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["lost"], [])
 
     def test_smoothing(self):
         """A plate of two voxels keeps its volume by default, and wears down when it is tightened by itself."""
