@@ -10,8 +10,10 @@
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkVariant.h>
 
 #include <algorithm>
@@ -72,6 +74,11 @@ void AddMaterials(const std::vector<Label>& labels, InterfaceData& mesh)
     const auto at = known.find(label);
     mesh.Materials.push_back(at != known.end() ? at->second : DefaultMaterial(label));
   }
+  if (mesh.Materials.size() >= NoMaterial)
+  {
+    throw std::invalid_argument("The mesh and the label image have " + std::to_string(mesh.Materials.size()) +
+      " labels together, at most " + std::to_string(NoMaterial - 1) + " are possible.");
+  }
   const std::vector<MaterialId> ids = IdsOf(mesh.Materials, old);
   for (InterfaceTriangle& triangle : mesh.Triangles)
   {
@@ -115,7 +122,13 @@ std::vector<double> FieldVolumes(vtkDataObject* object, const char* name, const 
 std::vector<MaterialId> Resampled(
   vtkImageData* image, const GridFrame& frame, const std::vector<Material>& materials, MaterialId background)
 {
-  const LabelImage labels = ReadLabelImage(image, image->GetPointData()->GetArray(Names::Label), false);
+  vtkDataArray* array = image->GetPointData()->GetArray(Names::Label);
+  if (!array)
+  {
+    throw std::invalid_argument(std::string("The rebuilt labels have no point array '") + Names::Label +
+      "'. Connect port 1 of Indicator Reconstruct.");
+  }
+  const LabelImage labels = ReadLabelImage(image, array, false);
   std::vector<MaterialId> ids = IdsOf(materials, labels.Labels);
   std::replace(ids.begin(), ids.end(), NoMaterial, background);
   const Lattice source = labels.Frame.Samples(), target = frame.Samples();
@@ -172,16 +185,21 @@ std::vector<ParticleSite> ReadParticles(
     throw std::invalid_argument(std::string("The particles have no point arrays '") + Names::Materials + "' and '" +
       Names::NumberOfMaterials + "'. Connect the output of Particle Sample Cells.");
   }
+  vtkNew<vtkTypeInt64Array> labels; // doubles would round large ones
+  if (sets)
+  {
+    labels->DeepCopy(sets);
+  }
   std::vector<ParticleSite> sites(static_cast<std::size_t>(particles->GetNumberOfPoints()));
   for (std::size_t n = 0; n < sites.size(); ++n)
   {
     Vec3 world;
     particles->GetPoint(vtkIdType(n), world.data());
     sites[n].Index = IndexOf(frame, world);
-    const int count = std::min(int(numbers->GetComponent(vtkIdType(n), 0)), sets->GetNumberOfComponents());
+    const int count = std::min(int(numbers->GetComponent(vtkIdType(n), 0)), labels->GetNumberOfComponents());
     for (int c = 0; c < count; ++c)
     {
-      const MaterialId id = IdOf(materials, Label(sets->GetComponent(vtkIdType(n), c)));
+      const MaterialId id = IdOf(materials, labels->GetTypedComponent(vtkIdType(n), c));
       if (id != NoMaterial)
       {
         sites[n].Materials.Insert(id);
@@ -227,7 +245,7 @@ void FindVolumeFacts(const ReportInputs& inputs, const LabelImage& image, Report
   {
     ledger.Pairs.insert(pair.Materials);
   }
-  if (inputs.Tightened)
+  if (inputs.Tightened && inputs.Tightened->GetNumberOfPoints() > 0)
   {
     ledger.TightIds = Resampled(inputs.Tightened, volume.Frame, materials, facts.Background);
   }

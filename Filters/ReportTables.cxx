@@ -10,6 +10,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -428,6 +429,26 @@ void AddTotals(vtkFieldData* fieldData, const ReportFacts& facts)
   position->InsertNextTuple(CenterOf(facts.Mesh, check.Quality.Worst).data());
   fieldData->AddArray(position);
   AddValue<vtkStringArray>(fieldData, "Certificate", CertificateOf(facts));
+}
+
+void AddDistances(vtkFieldData* fieldData, const std::vector<double>& distances)
+{
+  double sum = 0.0, largest = 0.0;
+  Index far = 0;
+  for (const double distance : distances)
+  {
+    if (std::isnan(distance))
+    {
+      ++far;
+      continue;
+    }
+    sum += distance;
+    largest = std::max(largest, distance);
+  }
+  const Index near = Index(distances.size()) - far;
+  AddValue<vtkDoubleArray>(fieldData, "MeanDistanceToVoxels", near > 0 ? sum / double(near) : 0.0);
+  AddValue<vtkDoubleArray>(fieldData, "MaxDistanceToVoxels", largest);
+  AddValue<vtkTypeInt64Array>(fieldData, "FarPoints", far);
 }
 
 std::string CertificateOf(const ReportFacts& facts)

@@ -17,6 +17,7 @@ void FillMaterials(vtkTable* table, const ReportFacts& facts);
 void FillInterfaces(vtkTable* table, const ReportFacts& facts);
 void FillLosses(vtkTable* table, const ReportFacts& facts);
 void AddTotals(vtkFieldData* fieldData, const ReportFacts& facts);
+void AddDistances(vtkFieldData* fieldData, const std::vector<double>& distances);
 
 /// "certified: ..." with the figures that it stands on, or "not certified: ..." with each kind of fault, how often it
 /// occurs and in which labels.

@@ -30,9 +30,8 @@ namespace
 using namespace LabelMesh;
 
 /// The mesh with the distance of its points to the interfaces of the voxels.
-void FillErrorMap(vtkPolyData* mesh, const ReportFacts& facts, vtkPolyData* output)
+void FillErrorMap(vtkPolyData* mesh, const std::vector<double>& distances, vtkPolyData* output)
 {
-  const std::vector<double> distances = DistancesOf(facts);
   vtkNew<vtkDoubleArray> array;
   array->SetName(Names::DistanceToVoxels);
   array->SetNumberOfValues(mesh->GetNumberOfPoints());
@@ -113,7 +112,12 @@ int vtkLabelMeshReport::RequestData(
       if (this->ErrorMap)
       {
         monitor.Step(0.9, "Measuring distances");
-        FillErrorMap(inputs.Mesh, facts, vtkPolyData::GetData(outputVector, 3));
+        const std::vector<double> distances = DistancesOf(facts);
+        FillErrorMap(inputs.Mesh, distances, vtkPolyData::GetData(outputVector, 3));
+        for (int port = 0; port < 3; ++port)
+        {
+          AddDistances(vtkTable::GetData(outputVector, port)->GetFieldData(), distances);
+        }
       }
       monitor.Step(1.0);
     });

@@ -73,7 +73,8 @@
  * "DegenerateTriangles" (ratio below 1e-10), "SameLabelTriangles" (left out of everything else), "WrongFaces" (whose
  * two labels are not in the Materials of all their points), "SelfIntersectingPairs", "SelfIntersectingTriangles",
  * "Certified" (1: no fault of any kind) (int64), "Certificate" (string: that in a sentence, or all that is wrong); with
- * input 1 "MisclassifiedVoxels", and "UndecidedVoxels" among them: in no material or in several (int64).
+ * input 1 "MisclassifiedVoxels", and "UndecidedVoxels" among them: in no material or in several (int64); with ErrorMap
+ * "MeanDistanceToVoxels", "MaxDistanceToVoxels" (double, world length), "FarPoints" (int64): those without a distance.
  *
  * Errors: cells that are no triangles, no BoundaryLabels, an image without integer labels, ErrorMap without an image.
  * An empty mesh gives a report of what was lost.

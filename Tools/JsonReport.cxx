@@ -331,6 +331,13 @@ void AddHead(const ReportInput& input, vtkTable* totals, Json& json)
   json.Integer("self_intersecting_pairs", count("SelfIntersectingPairs"));
   json.Integer("self_intersecting_triangles", count("SelfIntersectingTriangles"));
   json.Integer("misclassified_voxels", count("MisclassifiedVoxels"));
+  if (input.ErrorMap)
+  {
+    Json distances;
+    distances.Real("mean", FieldValue(totals, "MeanDistanceToVoxels"));
+    distances.Real("max", FieldValue(totals, "MaxDistanceToVoxels")).Integer("far_points", count("FarPoints"));
+    json.Add("distance_to_voxels", distances.Object());
+  }
 }
 
 void AddTail(const ReportInput& input, Json& json)

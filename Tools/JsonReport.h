@@ -42,6 +42,7 @@ std::vector<std::string> Verdict(const ReportInput& input, vtkLabelMeshReport* r
 ///  input, dimensions, spacing, method, certified, certificate (a sentence), points, triangles, min_radius_ratio,
 ///  p1_radius_ratio, mean_radius_ratio, worst_triangle {triangle, position}, duplicate_triangles,
 ///  degenerate_triangles, wrong_faces, self_intersecting_pairs, self_intersecting_triangles, misclassified_voxels,
+///  distance_to_voxels {mean, max, far_points} (with an error map),
 ///  materials [{label, name, triangles, vertices, min_radius_ratio, mean_radius_ratio, worst_triangle, certified,
 ///    closed, manifold, edge_manifold, vertex_manifold, oriented, open_edges, nonmanifold_edges, nonmanifold_vertices,
 ///    misoriented_edges, self_intersections, components, euler, genus, parts, cavities, voxels, voxel_components,

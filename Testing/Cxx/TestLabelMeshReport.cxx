@@ -427,6 +427,8 @@ TEST(LabelMeshReport, ErrorMap)
     // The lower side lies a quarter of a voxel inside; its corners are on the faces beside it.
     EXPECT_NEAR(distances->GetComponent(p, 0), 0.0, 1e-6);
   }
+  EXPECT_NEAR(Total(report->GetOutput(0), "MaxDistanceToVoxels"), 0.0, 1e-6);
+  EXPECT_EQ(Total(report->GetOutput(0), "FarPoints"), 0);
   EXPECT_EQ(complaints.Count, 0) << complaints.Text;
   report->RemoveAllInputConnections(1);
   report->Update();
@@ -443,4 +445,21 @@ TEST(LabelMeshReport, SaysWhatIsMissing)
   report->Update();
   EXPECT_EQ(complaints.Count, 1);
   EXPECT_TRUE(complaints.Say(Names::BoundaryLabels)) << complaints.Text;
+
+  report->SetInputData(0, Mesh({ 0, 4, 7 }));
+  report->SetInputData(1, Volume());
+  report->SetInputData(3, Volume());
+  report->Update();
+  EXPECT_TRUE(complaints.Say("Indicator Reconstruct")) << complaints.Text;
+  report->RemoveAllInputConnections(3);
+  report->SetInputData(4, BoxMesh(Vec3::Zero(), Vec3::Ones()));
+  report->Update();
+  EXPECT_EQ(complaints.Count, 2) << "any points with Materials will do: " << complaints.Text;
+  vtkNew<vtkPolyData> bare;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0, 0, 0);
+  bare->SetPoints(points);
+  report->SetInputData(4, bare);
+  report->Update();
+  EXPECT_TRUE(complaints.Say("Particle Sample Cells")) << complaints.Text;
 }

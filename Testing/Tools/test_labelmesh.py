@@ -202,6 +202,8 @@ class TestOutput(CommandLineTest):
         self.assertEqual(error_map.GetNumberOfCells(), report["triangles"])
         distances = vtk_to_numpy(error_map.GetPointData().GetArray("DistanceToVoxels"))
         self.assertTrue(np.all(distances >= 0) and distances.max() < 1, distances.max())
+        self.assertAlmostEqual(report["distance_to_voxels"]["max"], distances.max(), places=6)
+        self.assertEqual(report["distance_to_voxels"]["far_points"], 0)
         self.assertGreater(report["seconds"]["Report"], 0)
         self.assertEqual(self.mesh(self.spheres, "-o", "m.vtp", "--quiet").stderr, "")
 
