@@ -195,7 +195,7 @@ std::vector<ParticleSite> ReadParticles(
   {
     Vec3 world;
     particles->GetPoint(vtkIdType(n), world.data());
-    sites[n].Index = IndexOf(frame, world);
+    sites[n].Position = IndexOf(frame, world);
     const int count = std::min(int(numbers->GetComponent(vtkIdType(n), 0)), labels->GetNumberOfComponents());
     for (int c = 0; c < count; ++c)
     {
@@ -236,7 +236,7 @@ void FindVolumeFacts(const ReportInputs& inputs, const LabelImage& image, Report
   CountMisclassified(meshIds, materials.size(), volume);
   monitor.Step(0.7);
 
-  LedgerInput ledger{ dims, volume.Ids, volume.Voxels, meshIds, {}, {}, facts.MaskVolumes, facts.TightVolumes, {}, {} };
+  LedgerInput ledger{ dims, volume.Voxels, meshIds, {}, {}, facts.MaskVolumes, facts.TightVolumes, {}, {} };
   for (const MaterialCheck& check : facts.Check.Materials)
   {
     ledger.Triangles.push_back(check.Quality.Triangles);

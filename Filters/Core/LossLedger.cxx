@@ -143,7 +143,7 @@ private:
         bool inside = true;
         for (int a = 2; a >= 0; --a)
         {
-          const double at = std::round(particle.Index[a]) + offset[a];
+          const double at = std::round(particle.Position[a]) + offset[a];
           inside = inside && at >= 0 && at < dims[a];
           v = v * dims[a] + (inside ? Index(at) : 0);
         }

@@ -45,7 +45,7 @@ struct Loss
 /// A particle as the ledger needs it.
 struct ParticleSite
 {
-  Vec3 Index = Vec3::Zero(); ///< continuous index in the volume
+  Vec3 Position = Vec3::Zero(); ///< continuous index in the volume
   MaterialSet Materials;
 };
 
@@ -53,7 +53,6 @@ struct ParticleSite
 struct LedgerInput
 {
   std::array<int, 3> Dims{ 0, 0, 0 };
-  const std::vector<MaterialId>& Ids;        ///< of the voxels
   const VoxelObjects& Voxels;                ///< found in them
   const std::vector<MaterialId>& MeshIds;    ///< of the voxels, by the mesh (LabelsByMesh)
   std::vector<Index> Triangles;              ///< of each material
