@@ -17,7 +17,7 @@ constexpr float Tolerance =
 constexpr float RoundOff = 0.01f; // voxels: a plate as thick as the ball fits
 constexpr float Nothing = -1e6f;  // no ball
 constexpr float Everything = 1e6f;
-constexpr double HeldBeyond = 1.0; // voxels beyond the radius: farther samples keep their value
+constexpr double HeldBeyond = 0.5; // voxels beyond the radius: farther samples keep their value
 
 /// Samples within reach of a ball's centre, as offsets in memory.
 struct Offset
