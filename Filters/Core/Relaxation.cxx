@@ -300,7 +300,7 @@ private:
     Particle& p = this->Particles[this->Moving[n]]; // neighbours read what it was before
     const std::int32_t* const ids = this->Lists->Ids.data();
     Vec3& previous = this->Steps[n];
-    Vec3 step = this->Options.Damping *
+    Vec3 step = this->Options.StepFactor *
         EnergyStep(p, this->Before, ids + this->Lists->Starts[n], ids + this->Lists->Starts[n + 1]) +
       this->Options.Momentum * ToTangentPlane(previous, p.Normal);
     const double length = step.norm(), most = this->Options.LargestStep * p.TargetLength;
