@@ -107,7 +107,7 @@ public:
 private:
   std::vector<int> Vertex;
   std::vector<double> Lifted; ///< g_k + (s t_k)^2
-  std::vector<double> From; ///< where each parabola begins to be the lowest
+  std::vector<double> From;   ///< where each parabola begins to be the lowest
   std::vector<std::int32_t> Seed;
   int Count = 0;
 };
