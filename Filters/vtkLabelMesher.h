@@ -144,7 +144,7 @@ public:
   ///@}
 
   ///@{
-  /// vtkParticleSampleCells: relaxation sweeps (30), seed (1).
+  /// vtkParticleSampleCells: relaxation sweeps (20), seed (1).
   void SetSweeps(int sweeps);
   int GetSweeps() const;
   void SetSeed(int seed);
