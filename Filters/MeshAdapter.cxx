@@ -205,9 +205,9 @@ void CopyTuples(vtkFieldData* from, vtkIdList* ids, vtkFieldData* to)
 }
 
 /// The surface of material m: its triangles, turned so that normals point out of it. Where it touches itself in a
-/// vertex each part gets a vertex of its own.
-vtkSmartPointer<vtkPolyData> SurfaceOf(
-  MaterialId m, const std::vector<Index>& triangles, const InterfaceData& interface, vtkPolyData* mesh)
+/// vertex each part gets a vertex of its own. `numbers` holds a -1 for each point of the interface.
+vtkSmartPointer<vtkPolyData> SurfaceOf(MaterialId m, const std::vector<Index>& triangles,
+  const InterfaceData& interface, vtkPolyData* mesh, std::vector<Index>& numbers)
 {
   const Index count = Index(triangles.size());
   auto connectivity = NewArray<vtkTypeInt64Array>("", 1, 3 * count);
@@ -215,14 +215,24 @@ vtkSmartPointer<vtkPolyData> SurfaceOf(
   vtkNew<vtkIdList> cellIds;
   cellIds->SetNumberOfIds(count);
   std::vector<std::array<Index, 3>> corners(static_cast<std::size_t>(count));
+  // The interface's points that the surface uses, ascending; `numbers` is -1 again at the end.
   std::vector<Index> used;
-  used.reserve(static_cast<std::size_t>(3 * count));
   for (const Index t : triangles)
   {
-    used.insert(used.end(), interface.Triangles[t].Vertices.begin(), interface.Triangles[t].Vertices.end());
+    for (const Index v : interface.Triangles[t].Vertices)
+    {
+      if (numbers[v] < 0)
+      {
+        numbers[v] = 0;
+        used.push_back(v);
+      }
+    }
   }
   std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (std::size_t n = 0; n < used.size(); ++n)
+  {
+    numbers[used[n]] = Index(n);
+  }
   for (Index i = 0; i < count; ++i)
   {
     const InterfaceTriangle& triangle = interface.Triangles[triangles[i]];
@@ -230,12 +240,15 @@ vtkSmartPointer<vtkPolyData> SurfaceOf(
     const std::array<int, 3> order = first ? std::array<int, 3>{ 0, 1, 2 } : std::array<int, 3>{ 0, 2, 1 };
     for (int c = 0; c < 3; ++c)
     {
-      const auto at = std::lower_bound(used.begin(), used.end(), triangle.Vertices[order[c]]);
-      corners[i][c] = at - used.begin();
+      corners[i][c] = numbers[triangle.Vertices[order[c]]];
     }
     pairs->SetTypedComponent(i, 0, interface.Materials[m].Label);
     pairs->SetTypedComponent(i, 1, interface.Materials[triangle.Materials[first ? 1 : 0]].Label);
     cellIds->SetId(i, triangles[i]);
+  }
+  for (const Index v : used)
+  {
+    numbers[v] = -1;
   }
   for (const Index copied : SplitFans(corners, Index(used.size())))
   {
@@ -509,6 +522,7 @@ void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollec
   assembly->Initialize();
   assembly->SetRootNodeName(Names::SurfacesRoot);
   unsigned int block = 0;
+  std::vector<Index> numbers(interface.Points.size(), -1);
   for (std::size_t m = 0; m < interface.Materials.size(); ++m)
   {
     const Material& material = interface.Materials[m];
@@ -516,7 +530,7 @@ void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollec
     {
       continue;
     }
-    const auto surface = SurfaceOf(MaterialId(m), triangles[m], interface, interfaceMesh);
+    const auto surface = SurfaceOf(MaterialId(m), triangles[m], interface, interfaceMesh, numbers);
     AddMaterialFields(material, surface->GetFieldData());
     output->SetPartition(block, 0, surface);
     output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), material.Name.c_str());

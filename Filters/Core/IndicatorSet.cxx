@@ -103,6 +103,7 @@ float Dot(const Row& a, const Row& b)
 IndicatorSet::IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label background, const Lattice& working)
   : Blocks(std::move(blocks))
   , Working_(working)
+  , Voxel_(working.VoxelSize())
 {
   if (this->Blocks.empty() || this->Blocks.size() >= NoMaterial)
   {

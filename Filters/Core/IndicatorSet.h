@@ -56,7 +56,7 @@ public:
   /// NoMaterial when no block has the background label.
   MaterialId Background() const { return this->Background_; }
   const Lattice& Working() const { return this->Working_; }
-  double VoxelSize() const { return this->Working_.VoxelSize(); }
+  double VoxelSize() const { return this->Voxel_; }
 
   double Value(MaterialId m, const Vec3& x) const;
   double ValueAndGradient(MaterialId m, const Vec3& x, Vec3& gradient) const;
@@ -104,6 +104,7 @@ private:
   std::vector<IndicatorBlock> Blocks;
   MaterialId Background_ = NoMaterial;
   Lattice Working_;
+  double Voxel_; ///< its voxel size: a cube root, asked for often
   std::vector<SampleBox> Boxes; // per block
   std::vector<MaterialId> Labels_;
   // Tiles of TileSize^3 cells of the working lattice; tile t has CandidateIds[TileStarts[t] .. TileStarts[t + 1]).

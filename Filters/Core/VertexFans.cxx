@@ -3,83 +3,97 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 
 namespace LabelMesh
 {
 namespace
 {
-/// A triangle's use of an edge, by the corners (3 * triangle + 0, 1, 2) at its ends; First at the smaller vertex.
-struct EdgeUse
+/// A triangle at a vertex: which corner of which, and its other two vertices.
+struct Corner
 {
-  Index Low, High;
-  Index First, Second;
+  Index Number; ///< 3 * triangle + corner
+  Index A, B;
 };
 
-Index Root(std::vector<Index>& parents, Index n)
+/// Numbers the fans of the corners around one vertex from 0; returns how many there are.
+int NumberFans(const std::vector<Corner>& corners, std::vector<int>& fans)
 {
-  while (parents[n] != n)
+  fans.assign(corners.size(), -1);
+  const auto uses = [&](Index other)
   {
-    n = parents[n] = parents[parents[n]];
+    return std::count_if(
+      corners.begin(), corners.end(), [other](const Corner& c) { return c.A == other || c.B == other; });
+  };
+  int count = 0;
+  std::vector<std::size_t> open;
+  for (std::size_t first = 0; first < corners.size(); ++first)
+  {
+    if (fans[first] >= 0)
+    {
+      continue;
+    }
+    fans[first] = count;
+    open.assign(1, first);
+    while (!open.empty())
+    {
+      const Corner corner = corners[open.back()];
+      open.pop_back();
+      for (const Index other : { corner.A, corner.B })
+      {
+        for (std::size_t n = 0; uses(other) == 2 && n < corners.size(); ++n)
+        {
+          if (fans[n] < 0 && (corners[n].A == other || corners[n].B == other))
+          {
+            fans[n] = count;
+            open.push_back(n);
+          }
+        }
+      }
+    }
+    ++count;
   }
-  return n;
-}
-
-void Join(std::vector<Index>& parents, Index a, Index b)
-{
-  const Index rootA = Root(parents, a), rootB = Root(parents, b);
-  parents[std::max(rootA, rootB)] = std::min(rootA, rootB);
+  return count;
 }
 }
 
 std::vector<Index> SplitFans(std::vector<std::array<Index, 3>>& triangles, Index vertices)
 {
-  std::vector<EdgeUse> uses;
-  for (Index t = 0; t < Index(triangles.size()); ++t)
+  // The corners at vertex v: at[starts[v]] to at[starts[v + 1]].
+  std::vector<Index> starts(static_cast<std::size_t>(vertices) + 1, 0), at(3 * triangles.size());
+  for (const auto& triangle : triangles)
   {
-    for (int i = 0; i < 3; ++i)
+    for (const Index v : triangle)
     {
-      const int j = (i + 1) % 3;
-      const Index a = triangles[t][i], b = triangles[t][j];
-      uses.push_back(a < b ? EdgeUse{ a, b, 3 * t + i, 3 * t + j } : EdgeUse{ b, a, 3 * t + j, 3 * t + i });
+      ++starts[v + 1];
     }
   }
-  std::sort(uses.begin(), uses.end(),
-    [](const EdgeUse& p, const EdgeUse& q)
-    { return std::tie(p.Low, p.High, p.First) < std::tie(q.Low, q.High, q.First); });
-  // Corners at one vertex are joined to fans; the smallest corner stands for its fan.
-  std::vector<Index> fans(3 * triangles.size());
-  std::iota(fans.begin(), fans.end(), Index(0));
-  for (std::size_t first = 0, last = 0; first < uses.size(); first = last)
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<Index> next(starts.begin(), starts.end() - 1);
+  for (Index corner = 0; corner < Index(at.size()); ++corner)
   {
-    while (last < uses.size() && uses[last].Low == uses[first].Low && uses[last].High == uses[first].High)
-    {
-      ++last;
-    }
-    if (last - first == 2)
-    {
-      Join(fans, uses[first].First, uses[first + 1].First);
-      Join(fans, uses[first].Second, uses[first + 1].Second);
-    }
+    at[next[triangles[corner / 3][corner % 3]]++] = corner;
   }
-  std::vector<Index> firstFan(static_cast<std::size_t>(vertices), -1), copies, numbers(fans.size(), -1);
-  for (Index corner = 0; corner < Index(fans.size()); ++corner)
+  const std::vector<std::array<Index, 3>> given = triangles;
+  std::vector<Index> copies;
+  std::vector<Corner> corners;
+  std::vector<int> fans;
+  for (Index v = 0; v < vertices; ++v)
   {
-    Index& vertex = triangles[corner / 3][corner % 3];
-    const Index fan = Root(fans, corner);
-    if (firstFan[vertex] < 0)
+    corners.clear();
+    for (Index n = starts[v]; n < starts[v + 1]; ++n)
     {
-      firstFan[vertex] = fan;
+      const auto& triangle = given[at[n] / 3];
+      corners.push_back({ at[n], triangle[(at[n] + 1) % 3], triangle[(at[n] + 2) % 3] });
     }
-    if (firstFan[vertex] != fan)
+    const int count = NumberFans(corners, fans);
+    for (std::size_t n = 0; n < corners.size(); ++n)
     {
-      if (numbers[fan] < 0)
+      if (fans[n] > 0)
       {
-        numbers[fan] = vertices + Index(copies.size());
-        copies.push_back(vertex);
+        triangles[corners[n].Number / 3][corners[n].Number % 3] = vertices + Index(copies.size()) + fans[n] - 1;
       }
-      vertex = numbers[fan];
     }
+    copies.insert(copies.end(), static_cast<std::size_t>(std::max(count - 1, 0)), v);
   }
   return copies;
 }
