@@ -503,6 +503,16 @@ double vtkLabelMesher::GetFeatureSizeFloor() const
   return this->Stages->Sizing->GetFeatureSizeFloor();
 }
 
+void vtkLabelMesher::SetMaximumDeviation(double voxels)
+{
+  this->Stages->Sizing->SetMaximumDeviation(voxels);
+}
+
+double vtkLabelMesher::GetMaximumDeviation() const
+{
+  return this->Stages->Sizing->GetMaximumDeviation();
+}
+
 void vtkLabelMesher::SetGradation(double gradation)
 {
   this->Stages->Sizing->SetGradation(gradation);

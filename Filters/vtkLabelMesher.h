@@ -117,11 +117,14 @@ public:
   ///@}
 
   ///@{
-  /// vtkSizingField: edge length over feature size (0.7); the least feature size, voxels (0.8); growth of length (0.4).
+  /// vtkSizingField: edge length over feature size (0.7); the least feature size, voxels (0.8); how far edges may stay
+  /// beside curved surfaces, voxels (0.2); growth of length (0.4).
   void SetEpsilon(double epsilon);
   double GetEpsilon() const;
   void SetFeatureSizeFloor(double voxels);
   double GetFeatureSizeFloor() const;
+  void SetMaximumDeviation(double voxels);
+  double GetMaximumDeviation() const;
   void SetGradation(double gradation);
   double GetGradation() const;
   ///@}

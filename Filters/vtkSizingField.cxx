@@ -90,6 +90,7 @@ SizingOptions OptionsOf(vtkSizingField* filter, const CollectionHeader& header)
   SizingOptions options;
   options.Epsilon = filter->GetEpsilon();
   options.FeatureSizeFloor = filter->GetFeatureSizeFloor();
+  options.MaximumDeviation = filter->GetMaximumDeviation();
   options.Gradation = filter->GetGradation();
   options.MinimumLength = filter->GetMinimumLength();
   options.MaximumLength = filter->GetMaximumLength();
@@ -229,6 +230,7 @@ void vtkSizingField::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Epsilon: " << this->Epsilon << "\n";
   os << indent << "FeatureSizeFloor: " << this->FeatureSizeFloor << "\n";
+  os << indent << "MaximumDeviation: " << this->MaximumDeviation << "\n";
   os << indent << "Gradation: " << this->Gradation << "\n";
   os << indent << "MinimumLength: " << this->MinimumLength << "\n";
   os << indent << "MaximumLength: " << this->MaximumLength << "\n";

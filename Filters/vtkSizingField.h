@@ -22,6 +22,8 @@
  *  - near the interfaces h0 = Epsilon * max(feature size, FeatureSizeFloor), at most the radius of curvature (though
  *    not below 0.6 Epsilon * FeatureSizeFloor): at the sharp edges where three materials meet the feature size goes
  *    to zero, and particles are put on those edges explicitly, so the floor may stand in for it;
+ *  - h0 <= sqrt(8 MaximumDeviation / curvature), though not below Epsilon * FeatureSizeFloor: large smooth parts have
+ *    large features, and edges of that length would stay far beside them;
  *  - bounds: the maxima, port 1, and the minimum, which wins over all others;
  *  - the gradient is limited: h(x) = min over y of h0(y) + Gradation |x - y|.
  * With TargetTriangles h0 is scaled by one factor, before the bounds, until the predicted number of triangles is near
@@ -59,6 +61,12 @@ public:
   /// The least feature size, in voxels: about the radius of vtkTighten. Default 0.8.
   vtkSetMacro(FeatureSizeFloor, double);
   vtkGetMacro(FeatureSizeFloor, double);
+  ///@}
+
+  ///@{
+  /// How far edges may stay beside the curved surfaces that they span, in voxels; 0: no bound. Default 0.2.
+  vtkSetMacro(MaximumDeviation, double);
+  vtkGetMacro(MaximumDeviation, double);
   ///@}
 
   ///@{
@@ -111,6 +119,7 @@ protected:
 
   double Epsilon = 0.7;
   double FeatureSizeFloor = 0.8;
+  double MaximumDeviation = 0.2;
   double Gradation = 0.4;
   double MinimumLength = 0.0;
   double MaximumLength = 0.0;

@@ -153,6 +153,7 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--epsilon", number(line.Epsilon, 1e-3) },
     { "--min-length", number(line.MinimumLength, 0.0) },
     { "--max-length", number(line.MaximumLength, 0.0) },
+    { "--deviation", number(line.MaximumDeviation, 0) },
     { "--gradation", number(line.Gradation, 1e-3) },
     { "--material", [&line](const std::string&, const std::string& value) { ParseMaterial(value, line.Materials); } },
     { "--labels",
@@ -221,7 +222,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
       "there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
   }
   for (const char* option : { "--particles", "--smoothing", "--radius", "--material", "--epsilon", "--min-length",
-         "--max-length", "--gradation" })
+         "--max-length", "--deviation", "--gradation" })
   {
     if (line.Grid && given.count(option))
     {
@@ -313,6 +314,7 @@ Particle method (radii in voxels, lengths in world units):
                         color=#rrggbb; may be given several times
   --epsilon E           edge length over feature size (default 0.7)
   --min-length L, --max-length L  bounds of the edge length
+  --deviation D         voxels that edges may stay beside curved surfaces (default 0.2; 0: no bound)
   --gradation G         how fast edge lengths may change (default 0.4)
 
 Both methods:

@@ -29,7 +29,7 @@ struct CommandLine
   long long Background = 0;
   std::map<long long, MaterialOptions> Materials;
   bool Tightening = false; ///< --smoothing tighten
-  std::optional<double> Radius, Epsilon, MinimumLength, MaximumLength, Gradation;
+  std::optional<double> Radius, Epsilon, MinimumLength, MaximumLength, MaximumDeviation, Gradation;
   long long Triangles = 0;
   int Threads = 0; ///< 0: as many as there are
   bool Quiet = false;

@@ -246,6 +246,7 @@ void Apply(const CommandLine& line, vtkLabelMesher* mesher)
   set(line.Epsilon, &vtkLabelMesher::SetEpsilon);
   set(line.MinimumLength, &vtkLabelMesher::SetMinimumLength);
   set(line.MaximumLength, &vtkLabelMesher::SetMaximumLength);
+  set(line.MaximumDeviation, &vtkLabelMesher::SetMaximumDeviation);
   set(line.Gradation, &vtkLabelMesher::SetGradation);
   mesher->SetTargetTriangles(line.Triangles);
   for (const auto& [label, material] : line.Materials)

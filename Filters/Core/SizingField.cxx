@@ -41,6 +41,8 @@ void Check(const SizingOptions& options)
     "FeatureSizeFloor is " + std::to_string(options.FeatureSizeFloor) + "; expected 0 voxels or more");
   require(options.FeatureSizeFloor > 0 || options.MinimumLength > 0,
     "FeatureSizeFloor and MinimumLength are both 0: the length would vanish at junctions; give one of them");
+  require(options.MaximumDeviation >= 0,
+    "MaximumDeviation is " + std::to_string(options.MaximumDeviation) + "; expected 0 (no bound) or more voxels");
   require(options.Gradation > 0, "Gradation is " + std::to_string(options.Gradation) + "; expected a positive slope");
   require(options.MinimumLength >= 0 && options.MaximumLength >= 0 && options.TargetTriangles >= 0,
     "MinimumLength, MaximumLength and TargetTriangles must not be negative; 0 turns them off");
@@ -291,6 +293,8 @@ private:
   {
     const SizingOptions& o = this->Options;
     const double floor = o.FeatureSizeFloor * this->Frame.VoxelSize();
+    // An edge of length h stays h^2 curvature / 8 beside a curved surface.
+    const double deviation = o.MaximumDeviation > 0 ? o.MaximumDeviation * this->Frame.VoxelSize() : Unbounded;
     const auto materialMaximum = [&o](MaterialId m)
     {
       const double most = m < o.MaterialMaximumLength.size() ? o.MaterialMaximumLength[m] : 0;
@@ -307,6 +311,7 @@ private:
           if (sample.Curvature > 0)
           {
             h = std::min(h, std::max(1.0 / sample.Curvature, CurvatureFloor * o.Epsilon * floor));
+            h = std::min(h, std::max(std::sqrt(8.0 * deviation / sample.Curvature), o.Epsilon * floor));
           }
           h = std::min({ scale * h, materialMaximum(sample.Materials[0]), materialMaximum(sample.Materials[1]) });
           h = o.MaximumLength > 0 ? std::min(h, o.MaximumLength) : h;

@@ -13,9 +13,12 @@ struct SizingOptions
 {
   double Epsilon = 0.7;          ///< h0 = Epsilon * max(LFS, FeatureSizeFloor)
   double FeatureSizeFloor = 0.8; ///< voxels: lower bound of the local feature size, near the tightening radius (paper)
-  double Gradation = 0.4;        ///< the largest |grad h|
-  double MinimumLength = 0;      ///< world length; 0: none
-  double MaximumLength = 0;      ///< world length; 0: none
+  /// Voxels: how far an edge may stay beside the surface that it spans, by the curvature; never asks for less than
+  /// Epsilon * FeatureSizeFloor, since curvatures that large are those of voxels; 0: no bound.
+  double MaximumDeviation = 0.2;
+  double Gradation = 0.4;   ///< the largest |grad h|
+  double MinimumLength = 0; ///< world length; 0: none
+  double MaximumLength = 0; ///< world length; 0: none
   /// World length per material, 0: none; empty: none at all. Bounds h0 on that material's interfaces.
   std::vector<double> MaterialMaximumLength;
   /// Triangles wanted: h0 is scaled until about half as many particles are predicted; 0: off. The minimum, the maxima

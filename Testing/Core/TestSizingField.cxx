@@ -267,10 +267,34 @@ TEST(SizingField, TakesTheUsersImageAsABound)
   }
 }
 
+TEST(SizingField, KeepsEdgesNearCurvedSurfaces)
+{
+  // An edge of length h on a ball of radius R stays h^2 / (8 R) beside it.
+  SizingOptions options;
+  for (const double deviation : { 0.1, 0.4 })
+  {
+    options.MaximumDeviation = deviation;
+    for (const double radius : { 12.0, 24.0 })
+    {
+      const SampledFields set = BallIn(MakeLattice(73, 73, 73), Vec3(36.3, 36.1, 35.8), radius);
+      const SizingResult result = ComputeSizing(*set, options, nullptr, Monitor());
+      double sum = 0.0, count = 0.0;
+      AtInterface(*set, result.TargetLength,
+        [&](const InterfaceSample&, double h)
+        {
+          sum += h * h / (8 * radius);
+          ++count;
+        });
+      EXPECT_NEAR(sum / count, deviation, 0.15 * deviation) << radius;
+    }
+  }
+}
+
 TEST(SizingField, GivesTheSameLengthsOnAnAnisotropicLattice)
 {
   const Vec3 centre(36.3, 36.1, 35.8);
   SizingOptions options;
+  options.MaximumDeviation = 0;
   options.Epsilon = 0.5;
   options.FeatureSizeFloor = 0.5;
   const auto median = [&](const SampledFields& set, double& least)

@@ -55,6 +55,7 @@ TEST(SizingFieldFilter, KeepsItsContractInAnyFrame)
       filter->SetInputDataObject(BallCollection(source));
       filter->SetEpsilon(0.5);
       filter->SetFeatureSizeFloor(1.0);
+      filter->SetMaximumDeviation(0); // the feature size alone
       filter->UpdateInformation();
       const auto extent = source.Grown(2).Extent();
       const int* whole = filter->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
@@ -104,6 +105,7 @@ TEST(SizingFieldFilter, TakesTheUsersImageOnAnyGrid)
 
   vtkNew<vtkSizingField> filter;
   filter->SetEpsilon(0.5);
+  filter->SetMaximumDeviation(0); // the feature size and the user's bound alone
   filter->SetInputDataObject(0, BallCollection(source));
   filter->SetInputDataObject(1, user);
   Listener listener(filter), pipeline(filter->GetExecutive());
@@ -134,6 +136,7 @@ TEST(SizingFieldFilter, PassesItsOptionsOn)
   };
   EXPECT_EQ(filter->GetEpsilon(), SizingOptions().Epsilon);
   EXPECT_EQ(filter->GetFeatureSizeFloor(), SizingOptions().FeatureSizeFloor);
+  EXPECT_EQ(filter->GetMaximumDeviation(), SizingOptions().MaximumDeviation);
   filter->SetEpsilon(0.25);
   EXPECT_NEAR(atPole(), 2.5, 0.3);
   filter->SetMaximumLength(2);
