@@ -268,10 +268,14 @@ void WriteHeader(vtkPartitionedDataSetCollection* collection, const CollectionHe
   padding->SetName(Names::Padding);
   padding->InsertNextValue(header.Padding);
   fieldData->AddArray(padding);
-  vtkNew<vtkIntArray> border;
-  border->SetName(Names::Border);
-  border->InsertNextValue(header.FlatBorder ? 1 : 0);
-  fieldData->AddArray(border);
+  fieldData->RemoveArray(Names::Border);
+  if (header.FlatBorder)
+  {
+    vtkNew<vtkIntArray> border;
+    border->SetName(Names::Border);
+    border->InsertNextValue(1);
+    fieldData->AddArray(border);
+  }
   AddNumbers(fieldData, Names::SourceOrigin, vtkNew<vtkDoubleArray>(), 3, header.Source.Origin().data(), 3);
   AddNumbers(fieldData, Names::VoxelSize, vtkNew<vtkDoubleArray>(), 3, header.Source.Spacing().data(), 3);
   const std::array<double, 9> rows = RowsOf(header.Source.Direction());

@@ -13,9 +13,9 @@
  *  - block field data "Label" (int64), "Color" (float64 x 3); block name: the material's name
  *  - field data of the collection: Labels (int64), MaterialNames (string), MaterialColors (float64 x 3),
  * BackgroundLabel (int64), SourceExtent (int32 x 6), SourceOrigin (float64 x 3), SourceDirection (float64 x 9),
- * VoxelSize (float64 x 3: the spacing), Padding (int32), Border (int32: 0 closed, 1 flat). A block reaches Padding
- * samples beyond its material; the background's covers the whole working grid, which is the source grid with Padding
- * samples around it. The same grid is published for filters that make images of it.
+ * VoxelSize (float64 x 3: the spacing), Padding (int32), Border (int32: 1, with a flat border alone). A block reaches
+ * Padding samples beyond its material; the background's covers the whole working grid, which is the source grid with
+ * Padding samples around it. The same grid is published for filters that make images of it.
  *
  * Method: one pass over the labels finds the materials and their boxes, one pass over each box makes its mask. Space
  * outside the volume, and labels that are not asked for, belong to the background.

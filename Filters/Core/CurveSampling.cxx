@@ -92,6 +92,19 @@ private:
     return true;
   }
 
+  /// Whether what is outside would touch itself if the two were one junction: where background beneath the border comes
+  /// near it between materials, or reaches it as a gap between two. That would be no manifold.
+  bool WouldPinchOutside(const MaterialSet& sampled, const MaterialSet& other) const
+  {
+    const auto has = [this](const MaterialSet& set, bool border)
+    { return border ? CountBorders(set) > 0 : set.Contains(this->Indicators.Background()); };
+    const bool isNew = std::any_of(other.begin(), other.end(), [&](MaterialId m) { return !sampled.Contains(m); });
+    const bool bothReach = has(sampled, false) && has(sampled, true) && has(other, false) && has(other, true);
+    const bool oneBeneath = has(sampled, false) != has(sampled, true) && has(other, false) == has(sampled, true) &&
+      has(other, true) == has(sampled, false);
+    return isNew && (bothReach || oneBeneath);
+  }
+
   void PlaceZeroCells()
   {
     // On edges and faces of the volume's box first: what is merged there stays there.
@@ -110,7 +123,7 @@ private:
       this->Placed.VisitScaled(cell.Position, this->LengthAt(cell.Position), MergeDistance,
         [&](Index particle, double squared)
         {
-          if (squared < best)
+          if (squared < best && !this->WouldPinchOutside(this->Result.Particles[particle].Materials, cell.Materials))
           {
             best = squared;
             nearest = particle;
@@ -237,7 +250,7 @@ private:
     this->Placed.VisitScaled(x, h, 1.5 * MergeDistance,
       [&](Index n, double squared)
       {
-        if (n == predecessor)
+        if (n == predecessor || this->WouldPinchOutside(this->Result.Particles[n].Materials, materials))
         {
           return;
         }
