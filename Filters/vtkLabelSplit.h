@@ -29,7 +29,7 @@
  *    change: what an opening takes away goes to the nearest material in later stages, and where a closing overlaps
  * another material the deeper one wins. The background is changed only by a radius of its own.
  *
- * Limits: 65534 labels; memory is that of the boxes, four bytes a sample.
+ * Limits: 65528 labels; memory is that of the boxes, four bytes a sample.
  *
  * Errors: no array of labels, several components, a value that is not an integer, a two-dimensional image, options out
  * of range. Warnings: labels that were asked for and do not occur, a material that its opening took away, nothing but
