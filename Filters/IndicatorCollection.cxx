@@ -138,6 +138,13 @@ LabelMesh::Label BlockLabel(vtkPartitionedDataSetCollection* collection, unsigne
 }
 }
 
+VolumeBox CollectionHeader::SourceBox() const
+{
+  const Lattice samples = this->Source.Samples();
+  const auto& n = samples.Dims;
+  return { samples.Position(-0.5, -0.5, -0.5), samples.Position(n[0] - 0.5, n[1] - 0.5, n[2] - 0.5) };
+}
+
 GridFrame FrameOf(vtkImageData* image)
 {
   const int* extent = image->GetExtent();
@@ -261,6 +268,14 @@ void WriteHeader(vtkPartitionedDataSetCollection* collection, const CollectionHe
   padding->SetName(Names::Padding);
   padding->InsertNextValue(header.Padding);
   fieldData->AddArray(padding);
+  fieldData->RemoveArray(Names::Border);
+  if (header.FlatBorder)
+  {
+    vtkNew<vtkIntArray> border;
+    border->SetName(Names::Border);
+    border->InsertNextValue(1);
+    fieldData->AddArray(border);
+  }
   AddNumbers(fieldData, Names::SourceOrigin, vtkNew<vtkDoubleArray>(), 3, header.Source.Origin().data(), 3);
   AddNumbers(fieldData, Names::VoxelSize, vtkNew<vtkDoubleArray>(), 3, header.Source.Spacing().data(), 3);
   const std::array<double, 9> rows = RowsOf(header.Source.Direction());
@@ -300,6 +315,7 @@ CollectionHeader ReadHeader(vtkPartitionedDataSetCollection* collection)
   }
   header.Source = ReadFrame(fieldData);
   header.Padding = int(Numbers(fieldData, Names::Padding, 1)[0]);
+  header.FlatBorder = fieldData->GetArray(Names::Border) && Numbers(fieldData, Names::Border, 1)[0] != 0;
   if (vtkDataArray* background = fieldData->GetArray(Names::BackgroundLabel))
   {
     header.Background = background->GetNumberOfValues() > 0 ? background->GetVariantValue(0).ToTypeInt64() : 0;
@@ -420,7 +436,9 @@ IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const
                                                      : std::min<double>({ first, last, -voxel });
     blocks.push_back(block);
   }
-  return IndicatorSet(std::move(blocks), header.Background, header.WorkingFrame().Samples());
+  const std::optional<VolumeBox> border =
+    header.FlatBorder ? std::optional<VolumeBox>(header.SourceBox()) : std::nullopt;
+  return IndicatorSet(std::move(blocks), header.Background, header.WorkingFrame().Samples(), border);
 }
 
 void PublishFrame(vtkInformation* outInfo, const GridFrame& source, int padding)

@@ -6,7 +6,7 @@
 //    block field data Label (int64), Color;
 //  - collection field data: Labels, MaterialNames, MaterialColors, BackgroundLabel, VoxelSize, SourceExtent,
 //  SourceOrigin,
-//    SourceDirection, Padding, IndicatorKernel, and what the stages add; assembly root "Indicators".
+//    SourceDirection, Padding, Border, IndicatorKernel, and what the stages add; assembly root "Indicators".
 // The background is a material with a block of its own, which covers the whole working grid.
 #ifndef IndicatorCollection_h
 #define IndicatorCollection_h
@@ -37,12 +37,15 @@ struct Material
 /// What every stage knows of the whole collection.
 struct CollectionHeader
 {
-  GridFrame Source; ///< the label image's grid, after resampling
-  int Padding = 0;  ///< samples; the working grid is Source.Grown(Padding)
+  GridFrame Source;        ///< the label image's grid, after resampling
+  int Padding = 0;         ///< samples; the working grid is Source.Grown(Padding)
+  bool FlatBorder = false; ///< materials end at the faces of the box of the source's voxels
   LabelMesh::Label Background = 0;
   std::vector<Material> Materials; ///< ascending by label, the background among them
 
   GridFrame WorkingFrame() const { return this->Source.Grown(this->Padding); }
+  /// The box of the source's voxels, in its local frame.
+  VolumeBox SourceBox() const;
 };
 
 GridFrame FrameOf(vtkImageData* image);
@@ -78,7 +81,8 @@ bool IsGivenUp(vtkInformation* inInfo);
 vtkSmartPointer<vtkDataArray> TakeArray(
   vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName);
 
-/// An evaluator over the collection's Indicator arrays (shared, not copied: keep the collection alive).
+/// An evaluator over the collection's Indicator arrays (shared, not copied: keep the collection alive). With a flat
+/// border the space beyond the faces of the volume's box is among its materials.
 IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header);
 
 /// The source grid must be known before there is data: information keys that every stage copies.

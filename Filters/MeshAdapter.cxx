@@ -94,6 +94,66 @@ void AddMaterialSets(
   pointData->AddArray(sets);
 }
 
+// In BorderFaces: a bit for each face of the volume's box, in the order of VolumeBorder.h, and one where the background
+// itself is in the particle's set, not only the space beyond a face.
+constexpr unsigned char BackgroundBit = 1 << NumberOfBorders;
+
+/// The sets with the space beyond the faces of the volume's box as background, and BorderFaces if there is any of it.
+std::vector<Particle> WithoutBorders(
+  const std::vector<Particle>& particles, MaterialId background, vtkPointData* pointData)
+{
+  std::vector<Particle> plain = particles;
+  auto faces = NewArray<vtkUnsignedCharArray>(Names::BorderFaces, 1, Index(particles.size()));
+  bool any = false;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+  {
+    plain[i].Materials = MaterialSet();
+    unsigned char bits = particles[i].Materials.Contains(background) ? BackgroundBit : 0;
+    for (const MaterialId m : particles[i].Materials)
+    {
+      bits |= IsBorder(m) ? 1 << (m - FirstBorder) : 0;
+      plain[i].Materials.Insert(IsBorder(m) ? background : m);
+    }
+    const bool onFace = (bits & ~BackgroundBit) != 0;
+    any = any || onFace;
+    faces->SetValue(Index(i), onFace ? bits : 0);
+  }
+  if (any)
+  {
+    pointData->AddArray(faces);
+  }
+  return plain;
+}
+
+/// The other way round.
+void AddBorders(vtkDataArray* faces, MaterialId background, std::vector<MaterialSet>& sets)
+{
+  for (std::size_t i = 0; i < sets.size(); ++i)
+  {
+    const int bits = int(faces->GetTuple1(Index(i)));
+    if (bits == 0)
+    {
+      continue;
+    }
+    MaterialSet set;
+    for (const MaterialId m : sets[i])
+    {
+      if (m != background || (bits & BackgroundBit) != 0)
+      {
+        set.Insert(m);
+      }
+    }
+    for (int n = 0; n < NumberOfBorders; ++n)
+    {
+      if ((bits & (1 << n)) != 0)
+      {
+        set.Insert(MaterialId(FirstBorder + n));
+      }
+    }
+    sets[i] = set;
+  }
+}
+
 /// A numeric array as the type that we need; a copy where it has another type.
 template <typename Array>
 vtkSmartPointer<Array> As(vtkDataArray* array)
@@ -350,7 +410,9 @@ void ParticlesToPolyData(const std::vector<Particle>& particles, const Collectio
     normals->SetTuple(i, header.Source.VectorToWorld(particles[i].Normal).data());
   }
   output->SetVerts(EqualCells(vertices, 1));
-  AddMaterialSets(particles, header.Materials, output->GetPointData());
+  const MaterialId background = FindMaterial(header.Materials, header.Background);
+  AddMaterialSets(header.FlatBorder ? WithoutBorders(particles, background, output->GetPointData()) : particles,
+    header.Materials, output->GetPointData());
   output->GetPointData()->AddArray(lengths);
   output->GetPointData()->AddArray(residuals);
   output->GetPointData()->AddArray(normals);
@@ -367,7 +429,16 @@ std::vector<Particle> ParticlesFromPolyData(vtkPolyData* input, const Collection
   const auto normals = As<vtkDoubleArray>(RequiredArray(data, "point", Names::Normal, 3, origin));
   vtkDataArray* setArray = RequiredArray(data, "point", Names::Materials, MaterialSet::Capacity, origin);
   vtkDataArray* numberArray = RequiredArray(data, "point", Names::NumberOfMaterials, 1, origin);
-  const std::vector<MaterialSet> sets = ReadSets(numberArray, setArray, header.Materials);
+  std::vector<MaterialSet> sets = ReadSets(numberArray, setArray, header.Materials);
+  if (vtkDataArray* faces = data->GetArray(Names::BorderFaces))
+  {
+    if (!header.FlatBorder)
+    {
+      throw std::invalid_argument(std::string("The particles have the array '") + Names::BorderFaces +
+        "' of a flat border, but the indicators are of a closed one. Connect those that the particles were made from.");
+    }
+    AddBorders(faces, FindMaterial(header.Materials, header.Background), sets);
+  }
   std::vector<Particle> particles(static_cast<std::size_t>(input->GetNumberOfPoints()));
   for (Index i = 0; i < Index(particles.size()); ++i)
   {
@@ -411,7 +482,8 @@ void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Partic
     for (int k = 0; k < 3; ++k)
     {
       const MaterialId material = curves[c].Materials[k];
-      triples->SetTypedComponent(Index(c), k, header.Materials[material].Label);
+      triples->SetTypedComponent(
+        Index(c), k, IsBorder(material) ? header.Background : header.Materials[material].Label);
     }
   }
   SetPoints(used, header.Source, output);

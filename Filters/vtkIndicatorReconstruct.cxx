@@ -275,7 +275,9 @@ int vtkIndicatorReconstruct::RequestData(
       }
       if (!fromSamples || !inspected.empty())
       {
-        const IndicatorSet indicators = MakeIndicatorSet(output, header);
+        CollectionHeader materials = header;
+        materials.FlatBorder = false; // the image lies within the box
+        const IndicatorSet indicators = MakeIndicatorSet(output, materials);
         if (!fromSamples)
         {
           AttachLabels(image, RebuildLabels(indicators, lattice, monitor.Part(0.4, 0.6)));

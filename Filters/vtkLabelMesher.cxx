@@ -373,6 +373,26 @@ int vtkLabelMesher::GetPadding() const
   return this->Stages->Split->GetPadding();
 }
 
+void vtkLabelMesher::SetBorder(int border)
+{
+  this->Stages->Split->SetBorder(border);
+}
+
+int vtkLabelMesher::GetBorder() const
+{
+  return this->Stages->Split->GetBorder();
+}
+
+void vtkLabelMesher::SetBorderToClosed()
+{
+  this->Stages->Split->SetBorderToClosed();
+}
+
+void vtkLabelMesher::SetBorderToFlat()
+{
+  this->Stages->Split->SetBorderToFlat();
+}
+
 void vtkLabelMesher::SetResamplingFactor(double factor)
 {
   this->Stages->Split->SetResamplingFactor(factor);

@@ -37,6 +37,10 @@ using namespace LabelMesh;
 
 constexpr double LargestRadius = 100; // voxels, of openings and closings: their cost grows with the cube
 
+// Voxels that labels are continued beyond a flat border: where they end, smoothing rounds them, and that is felt a few
+// voxels away.
+constexpr double ContinuedVoxels = 5;
+
 template <typename Map>
 double ValueOr(const Map& map, vtkIdType label, double other)
 {
@@ -196,16 +200,30 @@ void Resample(LabelImage& image, double factor)
   }
 }
 
-/// The box of a material's block, relative to the first source sample.
-Box BlockBox(const Box& material, const Lattice& source, bool background, int padding)
+/// The box of a material's block, relative to the first source sample. Where the material reaches the border it goes on
+/// for `layers` samples.
+Box BlockBox(const Box& material, const Lattice& source, bool background, int padding, int layers)
 {
   Box box;
   for (int a = 0; a < 3; ++a)
   {
-    box[2 * a] = (background ? 0 : material[2 * a]) - padding;
-    box[2 * a + 1] = (background ? source.Dims[a] - 1 : material[2 * a + 1]) + padding;
+    const int first = background ? 0 : material[2 * a], last = background ? source.Dims[a] - 1 : material[2 * a + 1];
+    box[2 * a] = first - padding - (first == 0 ? layers : 0);
+    box[2 * a + 1] = last + padding + (last == source.Dims[a] - 1 ? layers : 0);
   }
   return box;
+}
+
+/// Samples beyond the border that repeat the nearest label: none with a closed border.
+int ContinuedLayers(vtkLabelSplit* filter, const Lattice& source)
+{
+  if (filter->GetBorder() == vtkLabelSplit::Closed)
+  {
+    return 0;
+  }
+  // An opening or closing feels the end of the labels from as far as its radius.
+  const double voxels = ContinuedVoxels + std::clamp(filter->GetLargestRadius(), 0.0, LargestRadius);
+  return int(std::ceil(voxels * source.VoxelSize() / source.Spacing.minCoeff()));
 }
 
 GridFrame BlockFrame(const GridFrame& source, const Box& box)
@@ -225,6 +243,7 @@ std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, C
 {
   const Lattice source = image.Frame.Samples();
   const int count = int(image.Labels.size());
+  const int layers = ContinuedLayers(filter, source);
   const std::vector<Box> boxes = BoxesOf(image.Ids, source, count);
   const auto background =
     MaterialId(std::lower_bound(image.Labels.begin(), image.Labels.end(), header.Background) - image.Labels.begin());
@@ -244,7 +263,8 @@ std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, C
     MaskOptions options;
     options.OpeningRadius = RadiusIn(source, "opening", filter->GetMaterialOpeningRadius(material.Label));
     options.ClosingRadius = RadiusIn(source, "closing", filter->GetMaterialClosingRadius(material.Label));
-    const Box box = BlockBox(boxes[id], source, id == background, header.Padding);
+    options.ContinuedLayers = layers;
+    const Box box = BlockBox(boxes[id], source, id == background, filter->GetPadding(), layers);
     const GridFrame frame = BlockFrame(header.Source, box);
     const Index size = frame.Samples().Size();
     vtkNew<vtkUnsignedCharArray> mask;
@@ -328,6 +348,19 @@ double vtkLabelSplit::GetMaterialClosingRadius(vtkIdType label) const
   return ValueOr(this->MaterialClosingRadii, label, label == this->BackgroundLabel ? 0.0 : this->ClosingRadius);
 }
 
+double vtkLabelSplit::GetLargestRadius() const
+{
+  double largest = std::max(this->OpeningRadius, this->ClosingRadius);
+  for (const auto* radii : { &this->MaterialOpeningRadii, &this->MaterialClosingRadii })
+  {
+    for (const auto& [label, radius] : *radii)
+    {
+      largest = std::max(largest, radius);
+    }
+  }
+  return largest;
+}
+
 void vtkLabelSplit::SetMaterialName(vtkIdType label, const char* name)
 {
   if (Assign(this->MaterialNames, label, std::string(name ? name : "")))
@@ -399,7 +432,8 @@ int vtkLabelSplit::RequestInformation(
   {
     try
     {
-      PublishFrame(outInfo, Resampled(frame, this->ResamplingFactor), this->Padding);
+      const GridFrame source = Resampled(frame, this->ResamplingFactor);
+      PublishFrame(outInfo, source, this->Padding + ContinuedLayers(this, source.Samples()));
       return 1;
     }
     catch (const std::invalid_argument&)
@@ -427,6 +461,7 @@ int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVect
       CollectionHeader header;
       header.Background = this->BackgroundLabel;
       header.Padding = this->Padding;
+      header.FlatBorder = this->Border == Flat;
       if (input->GetNumberOfPoints() == 0)
       {
         WriteHeader(output, header);
@@ -440,6 +475,7 @@ int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVect
       monitor.Step(0.1, "Resampling");
       Resample(image, this->ResamplingFactor);
       header.Source = image.Frame;
+      header.Padding = this->Padding + ContinuedLayers(this, image.Frame.Samples());
       const std::vector<Label> lost = AppendMasks(this, image, header, output, monitor.Part(0.2, 1.0));
       WriteHeader(output, header);
       if (!missing.empty())
@@ -470,6 +506,7 @@ void vtkLabelSplit::PrintSelf(ostream& os, vtkIndent indent)
   os << (this->Labels.empty() ? " (all)\n" : "\n");
   os << indent << "BackgroundLabel: " << this->BackgroundLabel << "\n";
   os << indent << "Padding: " << this->Padding << "\n";
+  os << indent << "Border: " << (this->Border == Flat ? "Flat" : "Closed") << "\n";
   os << indent << "ResamplingFactor: " << this->ResamplingFactor << "\n";
   os << indent << "OpeningRadius: " << this->OpeningRadius << "\n";
   os << indent << "ClosingRadius: " << this->ClosingRadius << "\n";

@@ -13,19 +13,23 @@
  *  - block field data "Label" (int64), "Color" (float64 x 3); block name: the material's name
  *  - field data of the collection: Labels (int64), MaterialNames (string), MaterialColors (float64 x 3),
  * BackgroundLabel (int64), SourceExtent (int32 x 6), SourceOrigin (float64 x 3), SourceDirection (float64 x 9),
- * VoxelSize (float64 x 3: the spacing), Padding (int32) A block reaches Padding samples beyond its material; the
- * background's covers the whole working grid, which is the source grid with Padding samples around it. The same grid is
- * published for filters that make images of it.
+ * VoxelSize (float64 x 3: the spacing), Padding (int32), Border (int32: 1, with a flat border alone). A block reaches
+ * Padding samples beyond its material; the background's covers the whole working grid, which is the source grid with
+ * Padding samples around it. The same grid is published for filters that make images of it.
  *
  * Method: one pass over the labels finds the materials and their boxes, one pass over each box makes its mask. Space
  * outside the volume, and labels that are not asked for, belong to the background.
+ *  - Border: with Flat the outermost labels are continued beyond the volume, for 5 voxels and the largest radius of
+ * openings and closings, and the padding is around those. Later stages cut the materials at the faces of the box of
+ * voxels, half a voxel beyond the outermost samples: what meets the border ends in a plane there, with the box's edges
+ * and corners.
  *  - ResamplingFactor: each label's 0/1 function is interpolated linearly at the new samples and the largest wins. The
  * new grid covers the same voxels; its extent starts at 0. A finer grid keeps thinner parts in vtkTighten.
  *  - OpeningRadius, ClosingRadius: binary opening, then closing, of a material by a ball. Other materials' masks do not
  *    change: what an opening takes away goes to the nearest material in later stages, and where a closing overlaps
  * another material the deeper one wins. The background is changed only by a radius of its own.
  *
- * Limits: 65534 labels; memory is that of the boxes, four bytes a sample.
+ * Limits: 65528 labels; memory is that of the boxes, four bytes a sample.
  *
  * Errors: no array of labels, several components, a value that is not an integer, a two-dimensional image, options out
  * of range. Warnings: labels that were asked for and do not occur, a material that its opening took away, nothing but
@@ -72,6 +76,21 @@ public:
   vtkGetMacro(Padding, int);
   ///@}
 
+  enum BorderMode
+  {
+    Closed = 0,
+    Flat = 1
+  };
+  ///@{
+  /// What becomes of materials at the border of the volume. Closed: space beyond is background, and surfaces close half
+  /// a voxel beyond the outermost samples, rounded. Flat: they end exactly in the faces of the box of voxels; a volume
+  /// full of labels comes out as that box. Default Closed.
+  vtkSetClampMacro(Border, int, Closed, Flat);
+  vtkGetMacro(Border, int);
+  void SetBorderToClosed() { this->SetBorder(Closed); }
+  void SetBorderToFlat() { this->SetBorder(Flat); }
+  ///@}
+
   ///@{
   /// Samples per voxel along each axis, above 0. Default 1.
   vtkSetMacro(ResamplingFactor, double);
@@ -99,6 +118,8 @@ public:
   /// The radius that a label gets: its own, or the common one (0 for the background).
   double GetMaterialOpeningRadius(vtkIdType label) const;
   double GetMaterialClosingRadius(vtkIdType label) const;
+  /// The largest of all openings and closings that are asked for.
+  double GetLargestRadius() const;
   ///@}
 
   ///@{
@@ -127,6 +148,7 @@ protected:
   std::vector<vtkIdType> Labels;
   vtkIdType BackgroundLabel = 0;
   int Padding = 6;
+  int Border = Closed;
   double ResamplingFactor = 1.0;
   double OpeningRadius = 0.0;
   double ClosingRadius = 0.0;

@@ -17,6 +17,9 @@
  *  - "CellDimension" (uint8): 0, 1 or 2: of the lowest cell that the particle lies on
  *  - "NumberOfMaterials" (uint8), "Materials" (int64 x 8): the labels that meet there, ascending, the rest repeats the
  *    last; more than four where junctions closer than the target length were merged
+ *  - "BorderFaces" (uint8), where a flat border (vtkLabelSplit) has particles: bits 0 to 5 for the faces -x, +x, -y,
+ *    +y, -z, +z of the volume's box that the particle lies on, whose other side is background in "Materials"; bit 6
+ *    where background meets there within the box too
  *  - "TargetLength" (double), "Residual" (double): world lengths; the residual is the distance to the junction
  *  - "Normal" (double x 3): on 2-cells the unit normal from the first material into the second; else zero
  *  - field data Labels, MaterialNames, MaterialColors, BackgroundLabel

@@ -201,13 +201,20 @@ double KeptShare(const TightenVolumes& volumes)
 
 /// Takes as each material's volume what it holds among all of them; alone, one that its neighbours fill up would look
 /// smaller than its mesh will be. The outermost half voxels of the working grid, which no cell covers, are background.
+/// With a flat border only what lies in the box of the source's voxels counts.
 void MeasurePartition(std::vector<Job>& jobs, const CollectionHeader& header)
 {
   if (jobs.empty())
   {
     return;
   }
-  const Lattice working = header.WorkingFrame().Samples();
+  Lattice working = header.WorkingFrame().Samples();
+  if (header.FlatBorder)
+  {
+    working = header.Source.Samples(); // its voxels as cells
+    working.Origin = header.SourceBox().Low;
+    working.Dims = { working.Dims[0] + 1, working.Dims[1] + 1, working.Dims[2] + 1 };
+  }
   std::vector<IndicatorBlock> blocks;
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
@@ -217,12 +224,35 @@ void MeasurePartition(std::vector<Job>& jobs, const CollectionHeader& header)
       { label, jobs[n].Frame, jobs[n].Distance->GetPointer(0), label == header.Background ? end : -end });
   }
   const std::vector<double> volumes = PartitionVolumes(blocks, working);
-  const double rest =
-    double(working.Size()) * working.VoxelVolume() - std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  const double rest = header.FlatBorder
+    ? 0.0
+    : double(working.Size()) * working.VoxelVolume() - std::accumulate(volumes.begin(), volumes.end(), 0.0);
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
     jobs[n].Volumes.Tight = volumes[n] + (blocks[n].Label == header.Background ? rest : 0.0);
   }
+}
+
+/// The volume of a mask within the source grid.
+double VolumeInSource(const Job& job, const Lattice& source)
+{
+  std::array<Index, 3> first, last; // of the block's samples
+  for (int a = 0; a < 3; ++a)
+  {
+    const Index offset = std::lround((source.Origin[a] - job.Frame.Origin[a]) / source.Spacing[a]);
+    first[a] = std::max<Index>(offset, 0);
+    last[a] = std::min<Index>(offset + source.Dims[a], job.Frame.Dims[a]);
+  }
+  Index samples = 0;
+  for (Index k = first[2]; k < last[2]; ++k)
+  {
+    for (Index j = first[1]; j < last[1]; ++j)
+    {
+      const std::uint8_t* const row = job.Mask + job.Frame.At(0, j, k);
+      samples += std::count(row + std::min(first[0], last[0]), row + last[0], std::uint8_t(1));
+    }
+  }
+  return double(samples) * source.VoxelVolume();
 }
 
 void AddVolumes(vtkFieldData* fieldData, const std::vector<Job>& jobs)
@@ -316,11 +346,13 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
     {
       const CollectionHeader header = ReadHeader(input);
       std::vector<Job> jobs(header.Materials.size());
+      std::vector<double> inSource(jobs.size()); // masks with a flat border go on beyond it
       for (unsigned int n = 0; n < jobs.size(); ++n)
       {
         jobs[n].Frame = header.Source.LatticeOf(FrameOf(BlockImage(input, n)));
         jobs[n].Mask = BlockMask(input, n);
         jobs[n].Options = OptionsOf(this, header.Materials[n].Label);
+        inSource[n] = header.FlatBorder ? VolumeInSource(jobs[n], header.Source.Samples()) : 0.0;
         if (givenUp)
         {
           jobs[n].Release = [input, n]() { TakeArray(input, n, Names::Mask); };
@@ -341,6 +373,10 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
         TightenAll(jobs, header.Materials, monitor);
       }
       MeasurePartition(jobs, header);
+      for (std::size_t n = 0; n < jobs.size(); ++n)
+      {
+        jobs[n].Volumes.Mask = header.FlatBorder ? inSource[n] : jobs[n].Volumes.Mask;
+      }
       const std::string losses = LossesOf(jobs, header);
       if (!losses.empty())
       {

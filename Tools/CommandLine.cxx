@@ -140,6 +140,15 @@ std::map<std::string, Action> Actions(CommandLine& line)
         }
         line.Grid = value == "grid";
       } },
+    { "--border",
+      [&line](const std::string&, const std::string& value)
+      {
+        if (value != "closed" && value != "flat")
+        {
+          Fail("--border is closed or flat, found '" + value + "'");
+        }
+        line.FlatBorder = value == "flat";
+      } },
     { "--smoothing",
       [&line](const std::string&, const std::string& value)
       {
@@ -221,8 +230,8 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
     Fail(
       "there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
   }
-  for (const char* option : { "--particles", "--smoothing", "--radius", "--material", "--epsilon", "--min-length",
-         "--max-length", "--deviation", "--gradation" })
+  for (const char* option : { "--particles", "--border", "--smoothing", "--radius", "--material", "--epsilon",
+         "--min-length", "--max-length", "--deviation", "--gradation" })
   {
     if (line.Grid && given.count(option))
     {
@@ -307,6 +316,8 @@ Method:
   --method grid         marching cubes, smoothing, decimation: the baseline to compare with
 
 Particle method (radii in voxels, lengths in world units):
+  --border closed       space around the volume is background: surfaces close there, rounded (default)
+  --border flat         surfaces end exactly in the faces of the box of voxels, with its edges and corners
   --smoothing volume    all materials together, their volumes and thin parts stay (default)
   --smoothing tighten   the paper's: each material by itself, smoother; thin parts wear down
   --radius R            least radius of curvature after smoothing (default 0.7)

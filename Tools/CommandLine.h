@@ -28,6 +28,7 @@ struct CommandLine
   std::vector<long long> Labels;
   long long Background = 0;
   std::map<long long, MaterialOptions> Materials;
+  bool FlatBorder = false; ///< --border flat
   bool Tightening = false; ///< --smoothing tighten
   std::optional<double> Radius, Epsilon, MinimumLength, MaximumLength, MaximumDeviation, Gradation;
   long long Triangles = 0;

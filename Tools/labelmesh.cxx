@@ -14,6 +14,7 @@
 #include <vtkImageData.h>
 #include <vtkLabelMeshReport.h>
 #include <vtkLabelMesher.h>
+#include <vtkLabelSplit.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
@@ -241,6 +242,7 @@ void Apply(const CommandLine& line, vtkLabelMesher* mesher)
       (mesher->*setter)(*value);
     }
   };
+  mesher->SetBorder(line.FlatBorder ? vtkLabelSplit::Flat : vtkLabelSplit::Closed);
   mesher->SetSmoothing(line.Tightening ? vtkTighten::Tightening : vtkTighten::VolumeKeeping);
   set(line.Radius, &vtkLabelMesher::SetRadius);
   set(line.Epsilon, &vtkLabelMesher::SetEpsilon);

@@ -33,15 +33,32 @@ public:
     }
     std::vector<Index> order(arcs.size());
     std::iota(order.begin(), order.end(), Index(0));
-    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return arcs[a].back() > arcs[b].back(); });
+    const auto borders = [this](Index c) { return CountBorders(this->Network.OneCells[c].Materials); };
+    std::stable_sort(order.begin(), order.end(),
+      [&](Index a, Index b)
+      { return borders(a) != borders(b) ? borders(a) > borders(b) : arcs[a].back() > arcs[b].back(); });
     for (const Index c : order)
     {
       this->PlaceCurve(this->Network.OneCells[c], arcs[c]);
+    }
+    if (this->Indicators.Border())
+    {
+      // What was absorbed from a face of the volume's box takes the particle there.
+      for (Particle& p : this->Result.Particles)
+      {
+        this->Indicators.Border()->Snap(p.Materials.begin(), p.Materials.Size(), p.Position);
+      }
     }
     return std::move(this->Result);
   }
 
 private:
+  template <typename Materials>
+  static Index CountBorders(const Materials& materials)
+  {
+    return std::count_if(materials.begin(), materials.end(), IsBorder);
+  }
+
   double LengthAt(const Vec3& x) const { return this->TargetLength.Trilinear(x); }
 
   Index Place(const Vec3& x, const MaterialSet& materials, int dimension)
@@ -75,29 +92,51 @@ private:
     return true;
   }
 
+  /// Whether what is outside would touch itself if the two were one junction: where background beneath the border comes
+  /// near it between materials, or reaches it as a gap between two. That would be no manifold.
+  bool WouldPinchOutside(const MaterialSet& sampled, const MaterialSet& other) const
+  {
+    const auto has = [this](const MaterialSet& set, bool border)
+    { return border ? CountBorders(set) > 0 : set.Contains(this->Indicators.Background()); };
+    const bool isNew = std::any_of(other.begin(), other.end(), [&](MaterialId m) { return !sampled.Contains(m); });
+    const bool bothReach = has(sampled, false) && has(sampled, true) && has(other, false) && has(other, true);
+    const bool oneBeneath = has(sampled, false) != has(sampled, true) && has(other, false) == has(sampled, true) &&
+      has(other, true) == has(sampled, false);
+    return isNew && (bothReach || oneBeneath);
+  }
+
   void PlaceZeroCells()
   {
-    for (const ZeroCell& cell : this->Network.ZeroCells)
+    // On edges and faces of the volume's box first: what is merged there stays there.
+    std::vector<Index> order(this->Network.ZeroCells.size());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::stable_sort(order.begin(), order.end(),
+      [this](Index a, Index b) {
+        return CountBorders(this->Network.ZeroCells[a].Materials) > CountBorders(this->Network.ZeroCells[b].Materials);
+      });
+    this->ParticleOfZeroCell.assign(order.size(), -1);
+    for (const Index n : order)
     {
+      const ZeroCell& cell = this->Network.ZeroCells[n];
       Index nearest = -1;
       double best = 1e300;
       this->Placed.VisitScaled(cell.Position, this->LengthAt(cell.Position), MergeDistance,
-        [&](Index n, double squared)
+        [&](Index particle, double squared)
         {
-          if (squared < best)
+          if (squared < best && !this->WouldPinchOutside(this->Result.Particles[particle].Materials, cell.Materials))
           {
             best = squared;
-            nearest = n;
+            nearest = particle;
           }
         });
       if (nearest >= 0 && Unite(this->Result.Particles[nearest].Materials, cell.Materials))
       {
-        this->ParticleOfZeroCell.push_back(nearest);
+        this->ParticleOfZeroCell[n] = nearest;
         ++this->Result.Merged;
       }
       else
       {
-        this->ParticleOfZeroCell.push_back(this->Place(cell.Position, cell.Materials, 0));
+        this->ParticleOfZeroCell[n] = this->Place(cell.Position, cell.Materials, 0);
       }
     }
     this->Result.ZeroCells = Index(this->Result.Particles.size());
@@ -211,7 +250,7 @@ private:
     this->Placed.VisitScaled(x, h, 1.5 * MergeDistance,
       [&](Index n, double squared)
       {
-        if (n == predecessor)
+        if (n == predecessor || this->WouldPinchOutside(this->Result.Particles[n].Materials, materials))
         {
           return;
         }

@@ -180,6 +180,10 @@ private:
   /// The 0-cell of four materials near x, known or new; -1 where there is none within reach.
   Index SolveZeroCell(const MaterialSet& four, const Vec3& x, double reach)
   {
+    if (!this->Indicators.AnyInside(four.begin(), 4))
+    {
+      return -1;
+    }
     const Projection p = ProjectToJunction(this->Indicators, four.begin(), 4, x, { 30, 1e-4, 0.4 });
     if (!p.Converged || (p.Position - x).norm() > reach || !this->Dominant(four.begin(), 4, p.Position))
     {
@@ -241,7 +245,7 @@ private:
             triple[at++] = cell.Materials[n];
           }
         }
-        if (this->Ends.count({ this->NextZeroCell, triple }))
+        if (this->Ends.count({ this->NextZeroCell, triple }) || !this->Indicators.AnyInside(triple.data(), 3))
         {
           continue;
         }
@@ -377,6 +381,10 @@ private:
 
   void SeedOneCell(const Triple& triple, const Vec3& x)
   {
+    if (!this->Indicators.AnyInside(triple.data(), 3))
+    {
+      return;
+    }
     const Projection p = ProjectToJunction(this->Indicators, triple.data(), 3, x, { 20, 1e-3, 0.4 });
     if (!p.Converged || (p.Position - x).norm() > this->Reach || this->Visited(triple, p.Position) ||
       !this->Dominant(triple.data(), 3, p.Position))
@@ -442,7 +450,15 @@ private:
     {
       single += count == 1;
     }
-    this->Network.OpenEnds += 4 * Index(this->Network.ZeroCells.size()) - single;
+    Index expected = 0;
+    for (const ZeroCell& cell : this->Network.ZeroCells)
+    {
+      // Each of the four triples that has anything but outside.
+      const Index outside = std::count_if(
+        cell.Materials.begin(), cell.Materials.end(), [this](MaterialId m) { return this->Indicators.IsOutside(m); });
+      expected += outside == 3 ? 3 : 4;
+    }
+    this->Network.OpenEnds += expected - single;
   }
 
   const IndicatorSet& Indicators;

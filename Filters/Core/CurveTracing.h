@@ -36,7 +36,8 @@ struct JunctionNetwork
 /// Seeds are the cells of the working lattice whose corners carry four or more labels (0-cells) and three or more
 /// (1-cells). From each 0-cell its four triples are traced, starting to where the fourth material falls, with steps of
 /// 0.2 voxel and a Gauss-Newton corrector; where a fourth material wins, that 0-cell is solved and the curve ends
-/// there. Left-over three-label seeds give closed curves and those between 0-cells that the lattice does not show.
+/// there. The junctions of nothing but outside (IndicatorSet::IsOutside) are left out. Left-over three-label seeds give
+/// closed curves and those between 0-cells that the lattice does not show.
 JunctionNetwork TraceJunctions(const IndicatorSet& indicators, const Monitor& monitor);
 
 /// From x to the nearest point of the segment from a to b.

@@ -149,8 +149,12 @@ public:
     const double first = difference(u), last = difference(v);
     const double t = first > last ? std::clamp(first / (first - last), 0.0, 1.0) : 0.5;
     const Vec3 crossing = u + t * (v - u);
-    const Projection projected =
-      ProjectToJunction(this->Indicators, sample.Materials.data(), 2, crossing, { 4, 1e-2, 0.4 });
+    std::array<MaterialId, 2> pair = sample.Materials;
+    if (IsBorder(pair[0]))
+    {
+      std::swap(pair[0], pair[1]);
+    }
+    const Projection projected = ProjectToJunction(this->Indicators, pair.data(), 2, crossing, { 4, 1e-2, 0.4 });
     const bool stayed = (projected.Position - crossing).norm() < LargestProjection * this->Frame.Spacing.maxCoeff();
     const Vec3 position = stayed ? projected.Position : crossing;
     sample.Position = position.cast<float>();
@@ -170,7 +174,8 @@ public:
         const std::array<int, 3> here{ i, j, k };
         for (int a = 0; a < 3; ++a)
         {
-          if (here[a] + 1 < this->Frame.Dims[a] && labels[at] != labels[at + this->Stride[a]])
+          if (here[a] + 1 < this->Frame.Dims[a] &&
+            this->Indicators.HaveInterface(labels[at], labels[at + this->Stride[a]]))
           {
             samples.push_back(this->AtCrossing(here, a));
             break;
@@ -193,8 +198,9 @@ public:
         const std::array<int, 3> here{ i, j, k };
         for (int a = 0; a < 3; ++a)
         {
-          if (here[a] > 0 && here[a] + 1 < this->Frame.Dims[a] && labels[at] != labels[at - this->Stride[a]] &&
-            labels[at] != labels[at + this->Stride[a]])
+          if (here[a] > 0 && here[a] + 1 < this->Frame.Dims[a] &&
+            this->Indicators.HaveInterface(labels[at], labels[at - this->Stride[a]]) &&
+            this->Indicators.HaveInterface(labels[at], labels[at + this->Stride[a]]) && !IsBorder(labels[at]))
           {
             this->ThinPart(here, a, medial);
           }
@@ -326,7 +332,8 @@ public:
         const std::array<int, 3> here{ i, j, k };
         for (int a = 0; a < 3; ++a)
         {
-          if (here[a] + 1 >= dims[a] || nearest[at] == nearest[at + stride[a]] || labels[at] != labels[at + stride[a]])
+          if (here[a] + 1 >= dims[a] || nearest[at] == nearest[at + stride[a]] ||
+            labels[at] != labels[at + stride[a]] || IsBorder(labels[at]))
           {
             continue;
           }
@@ -380,6 +387,12 @@ private:
     {
       return false;
     }
+    if (this->OnBorder(p) || this->OnBorder(q))
+    {
+      // A face of the volume's box is no feature where it meets another face or an interface: flat up to its edge. Only
+      // what is thin between the two is.
+      return normals < float(CosineLargest) && normalQ.dot(across) > 0 && normalP.dot(across) < 0;
+    }
     // Between the two sides of a thin part the directions to the samples err most, and the normals tell all.
     if (normals < float(CosineLargest) && normalQ.dot(across) > 0 && normalP.dot(across) < 0)
     {
@@ -392,6 +405,12 @@ private:
     }
     const double angle = BaseAngle + 2 * std::atan(SampleOffset * this->Unit / std::sqrt(distance2));
     return directions < std::cos(std::min(LargestAngle, angle));
+  }
+
+  bool OnBorder(std::int32_t sample) const
+  {
+    const std::array<MaterialId, 2>& pair = this->Features.Samples[sample].Materials;
+    return IsBorder(pair[0]) || IsBorder(pair[1]);
   }
 
   /// The interface's normal out of `material` at the sample n, which lies in the direction `to` from a point inside.

@@ -12,6 +12,10 @@ namespace LabelMesh
 namespace
 {
 constexpr double Overshoot = 0.3; // voxels: how far the spline of a signed distance may overshoot its samples
+
+// The slope of the indicators beyond the faces of the volume's box: where such a one equals a material's is within a
+// millionth of a voxel from the face.
+constexpr double BorderSlope = 1e6;
 using Row = Eigen::Array4f;
 
 /// The Catmull-Rom weights of four consecutive samples at t in [0, 1] from the second, and their derivatives.
@@ -100,14 +104,17 @@ float Dot(const Row& a, const Row& b)
 }
 }
 
-IndicatorSet::IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label background, const Lattice& working)
+IndicatorSet::IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label background, const Lattice& working,
+  const std::optional<VolumeBox>& border)
   : Blocks(std::move(blocks))
+  , BackgroundLabel(background)
+  , Border_(border)
   , Working_(working)
   , Voxel_(working.VoxelSize())
 {
-  if (this->Blocks.empty() || this->Blocks.size() >= NoMaterial)
+  if (this->Blocks.empty() || this->Blocks.size() >= FirstBorder)
   {
-    throw std::invalid_argument("expected 1 to 65534 materials, found " + std::to_string(this->Blocks.size()));
+    throw std::invalid_argument("expected 1 to 65528 materials, found " + std::to_string(this->Blocks.size()));
   }
   for (std::size_t m = 0; m < this->Blocks.size(); ++m)
   {
@@ -121,10 +128,18 @@ IndicatorSet::IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label 
     }
   }
   this->FindCandidates(this->FindLabels());
+  if (this->Border_)
+  {
+    this->LabelBorder();
+  }
 }
 
 double IndicatorSet::Value(MaterialId m, const Vec3& x) const
 {
+  if (IsBorder(m))
+  {
+    return BorderSlope * this->Border_->Beyond(m, x);
+  }
   const IndicatorBlock& block = this->Blocks[m];
   Stencil stencil;
   if (!stencil.Locate(block, x))
@@ -147,6 +162,11 @@ double IndicatorSet::Value(MaterialId m, const Vec3& x) const
 
 double IndicatorSet::ValueAndGradient(MaterialId m, const Vec3& x, Vec3& gradient) const
 {
+  if (IsBorder(m))
+  {
+    gradient = BorderSlope * BorderNormal(m);
+    return BorderSlope * this->Border_->Beyond(m, x);
+  }
   const IndicatorBlock& block = this->Blocks[m];
   Stencil stencil;
   if (!stencil.Locate(block, x))
@@ -175,6 +195,13 @@ double IndicatorSet::ValueAndGradient(MaterialId m, const Vec3& x, Vec3& gradien
 
 double IndicatorSet::Difference(MaterialId a, MaterialId b, const Vec3& x, Vec3& gradient) const
 {
+  if (IsBorder(a) || IsBorder(b))
+  {
+    Vec3 other;
+    const double difference = this->ValueAndGradient(a, x, gradient) - this->ValueAndGradient(b, x, other);
+    gradient -= other;
+    return difference;
+  }
   const IndicatorBlock &first = this->Blocks[a], &second = this->Blocks[b];
   const SampleBox &firstBox = this->Boxes[a], &secondBox = this->Boxes[b];
   bool inner = firstBox.Aligned && secondBox.Aligned;
@@ -228,6 +255,11 @@ double IndicatorSet::Difference(MaterialId a, MaterialId b, const Vec3& x, Vec3&
 
 double IndicatorSet::ValueGradientHessian(MaterialId m, const Vec3& x, Vec3& gradient, Mat3& hessian) const
 {
+  if (IsBorder(m))
+  {
+    hessian.setZero();
+    return this->ValueAndGradient(m, x, gradient);
+  }
   const IndicatorBlock& block = this->Blocks[m];
   Stencil stencil;
   if (!stencil.Locate(block, x))
@@ -362,6 +394,10 @@ bool IndicatorSet::IsBeaten(MaterialId a, MaterialId b, const Vec3& x) const
 
 bool IndicatorSet::CanWinAt(MaterialId m, const Vec3& x) const
 {
+  if (IsBorder(m))
+  {
+    return this->Border_->Beyond(m, x) > 0;
+  }
   Index at[3];
   for (int a = 0; a < 3; ++a)
   {
@@ -370,6 +406,10 @@ bool IndicatorSet::CanWinAt(MaterialId m, const Vec3& x) const
   }
   const auto sampled = [&](MaterialId n, double& value)
   {
+    if (IsBorder(n))
+    {
+      return false;
+    }
     const IndicatorBlock& block = this->Blocks[n];
     const SampleBox& box = this->Boxes[n];
     Index local[3];

@@ -4,7 +4,9 @@
 #define LabelMesh_Core_IndicatorSet_h
 
 #include "Lattice.h"
+#include "VolumeBorder.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,9 @@ struct MaterialSpan
 /// convolution with the interpolating 4^3 Catmull-Rom spline (paper, section 5.1), and which materials can be the
 /// largest near a point. Positions are in the local frame of the working lattice.
 ///
+/// With a `border` (mode Flat) the space beyond each face of that box is a material too, with an id of VolumeBorder.h:
+/// its indicator is the distance beyond the face, so steep that it is the largest everywhere beyond and nowhere else.
+///
 /// Sparse: the work at a point depends on the materials near it, not on how many there are.
 /// Const after construction and safe to ask from many threads.
 class IndicatorSet
@@ -47,14 +52,26 @@ public:
   static constexpr int TileSize = 4; ///< cells of the working lattice along each axis that share their candidates
 
   /// `working` is the lattice that covers every block; blocks are ordered by label by the caller (checked).
-  /// Throws std::invalid_argument when there is no block, labels are not ascending, or there are 65535 or more.
-  IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label background, const Lattice& working);
+  /// Throws std::invalid_argument when there is no block, labels are not ascending, or there are 65529 or more.
+  IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label background, const Lattice& working,
+    const std::optional<VolumeBox>& border = std::nullopt);
 
   int NumberOfMaterials() const { return int(this->Blocks.size()); }
-  LabelMesh::Label LabelOf(MaterialId m) const { return this->Blocks[m].Label; }
+  /// The background's, for the space beyond a face.
+  LabelMesh::Label LabelOf(MaterialId m) const { return IsBorder(m) ? this->BackgroundLabel : this->Blocks[m].Label; }
   const IndicatorBlock& Block(MaterialId m) const { return this->Blocks[m]; }
   /// NoMaterial when no block has the background label.
   MaterialId Background() const { return this->Background_; }
+  const std::optional<VolumeBox>& Border() const { return this->Border_; }
+  /// The background and the space beyond the faces of the box.
+  bool IsOutside(MaterialId m) const { return m == this->Background_ || IsBorder(m); }
+  /// Whether a mesh shows where the two meet: not where both are outside.
+  bool HaveInterface(MaterialId a, MaterialId b) const { return a != b && !(this->IsOutside(a) && this->IsOutside(b)); }
+  /// False when all are outside.
+  bool AnyInside(const MaterialId* materials, int count) const
+  {
+    return std::any_of(materials, materials + count, [this](MaterialId m) { return !this->IsOutside(m); });
+  }
   const Lattice& Working() const { return this->Working_; }
   double VoxelSize() const { return this->Voxel_; }
 
@@ -90,6 +107,10 @@ private:
   /// Fills Labels_; returns the largest indicator at every working sample.
   std::vector<float> FindLabels();
   void FindCandidates(const std::vector<float>& largest);
+  /// Appends the space beyond the faces to each tile of a layer that reaches there.
+  void FindBorderTiles(Index tileLayer, std::vector<std::vector<MaterialId>>& tiles) const;
+  /// Gives the samples beyond the faces to the space there.
+  void LabelBorder();
   /// Appends m to each tile of a layer (constant z) that it can win in.
   void FindTilesOf(MaterialId m, Index tileLayer, const std::vector<float>& largest,
     std::vector<std::vector<MaterialId>>& tiles) const;
@@ -102,7 +123,9 @@ private:
   double Slack() const;
 
   std::vector<IndicatorBlock> Blocks;
+  LabelMesh::Label BackgroundLabel = 0;
   MaterialId Background_ = NoMaterial;
+  std::optional<VolumeBox> Border_;
   Lattice Working_;
   double Voxel_; ///< its voxel size: a cube root, asked for often
   std::vector<SampleBox> Boxes; // per block

@@ -133,6 +133,10 @@ void IndicatorSet::FindCandidates(const std::vector<float>& largest)
         {
           this->FindTilesOf(MaterialId(m), k, largest, tiles);
         }
+        if (this->Border_)
+        {
+          this->FindBorderTiles(k, tiles);
+        }
         for (Index t = 0; t < perLayer; ++t)
         {
           if (tiles[t].empty())
@@ -157,6 +161,53 @@ void IndicatorSet::FindCandidates(const std::vector<float>& largest)
   {
     this->CandidateIds.insert(this->CandidateIds.end(), ids.begin(), ids.end());
   }
+}
+
+void IndicatorSet::FindBorderTiles(Index tileLayer, std::vector<std::vector<MaterialId>>& tiles) const
+{
+  const Lattice& working = this->Working_;
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+  {
+    const Index tile[3] = { Index(t) % this->TileDims[0], Index(t) / this->TileDims[0], tileLayer };
+    for (int n = 0; n < NumberOfBorders; ++n)
+    {
+      const MaterialId border = MaterialId(FirstBorder + n);
+      const int axis = BorderAxis(border);
+      // The last tiles answer for all that is beyond the lattice too.
+      const Index end = BorderSide(border) < 0  ? tile[axis] * TileSize
+        : tile[axis] + 1 < this->TileDims[axis] ? (tile[axis] + 1) * TileSize
+                                                : Index(working.Dims[axis] - 1);
+      const double farthest = working.Origin[axis] + double(end) * working.Spacing[axis];
+      if (BorderSide(border) * (farthest - this->Border_->Plane(border)) >= 0)
+      {
+        tiles[t].push_back(border);
+      }
+    }
+  }
+}
+
+void IndicatorSet::LabelBorder()
+{
+  const Lattice& working = this->Working_;
+  ParallelFor(0, Index(working.Dims[1]) * working.Dims[2], 16,
+    [&](Index first, Index last)
+    {
+      for (Index at = first * working.Dims[0]; at < last * working.Dims[0]; ++at)
+      {
+        const auto c = working.Coordinates(at);
+        const Vec3 x = working.Position(c[0], c[1], c[2]);
+        double farthest = 0.0;
+        for (int n = 0; n < NumberOfBorders; ++n)
+        {
+          const double beyond = this->Border_->Beyond(MaterialId(FirstBorder + n), x);
+          if (beyond > farthest)
+          {
+            farthest = beyond;
+            this->Labels_[at] = MaterialId(FirstBorder + n);
+          }
+        }
+      }
+    });
 }
 
 void IndicatorSet::FindTilesOf(

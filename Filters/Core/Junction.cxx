@@ -7,6 +7,18 @@ namespace LabelMesh
 {
 namespace
 {
+/// What must vanish on the junction of `base` and m, and its gradient: the difference of their indicators or, where m
+/// is the space beyond a face of the volume's box, the distance to that face, which is exact.
+double Condition(const IndicatorSet& indicators, MaterialId base, MaterialId m, const Vec3& x, Vec3& gradient)
+{
+  if (IsBorder(m))
+  {
+    gradient = BorderNormal(m);
+    return indicators.Border()->Beyond(m, x);
+  }
+  return indicators.Difference(base, m, x, gradient);
+}
+
 /// The Gauss-Newton step -J^T (J J^T)^-1 g onto the junction of N + 1 materials; false where J is degenerate.
 template <int N>
 bool JunctionStep(const IndicatorSet& indicators, const MaterialId* materials, const Vec3& x, Vec3& step)
@@ -16,7 +28,7 @@ bool JunctionStep(const IndicatorSet& indicators, const MaterialId* materials, c
   for (int n = 0; n < N; ++n)
   {
     Vec3 gradient;
-    difference[n] = indicators.Difference(materials[0], materials[n + 1], x, gradient);
+    difference[n] = Condition(indicators, materials[0], materials[n + 1], x, gradient);
     jacobian.row(n) = gradient;
   }
   const Eigen::Matrix<double, N, N> normal = jacobian * jacobian.transpose();
@@ -69,6 +81,10 @@ Projection ProjectToJunction(
     projection.Position += step;
     if (length < options.Tolerance * voxel)
     {
+      if (indicators.Border())
+      {
+        indicators.Border()->Snap(materials, count, projection.Position);
+      }
       projection.Converged = true;
       return projection;
     }
@@ -94,7 +110,9 @@ Vec3 CurveTangent(const IndicatorSet& indicators, const MaterialId materials[3],
   }
   // Near the junction each inside/outside function is f_i - f_j for its largest rival f_j; their gradients and the
   // differences' span the same plane, and the three cross products of equation 8 are parallel: one serves.
-  const Vec3 tangent = (gradient[0] - gradient[1]).cross(gradient[0] - gradient[2]);
+  const auto across = [&](int n)
+  { return IsBorder(materials[n]) ? Vec3(-BorderNormal(materials[n])) : Vec3(gradient[0] - gradient[n]); };
+  const Vec3 tangent = across(1).cross(across(2));
   const double length = tangent.norm();
   return length > 1e-9 ? Vec3(tangent / length) : Vec3::Zero();
 }

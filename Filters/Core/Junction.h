@@ -25,6 +25,7 @@ struct Projection
 /// x where all their indicators are equal, found by solving the differences g = (f_0 - f_1, ..., f_0 - f_{count-1})
 /// with x -= J^T (J J^T)^-1 g. Exact for the junction of the true maximum, where the smooth maximum of equations
 /// 10 to 13 is biased for three and more materials. It does not ask whether another material is larger there.
+/// Where the space beyond faces of the volume's box takes part (never as the first), the result lies on them exactly.
 Projection ProjectToJunction(const IndicatorSet& indicators, const MaterialId* materials, int count, const Vec3& x,
   const ProjectOptions& options = {});
 
@@ -32,7 +33,7 @@ Projection ProjectToJunction(const IndicatorSet& indicators, const MaterialId* m
 Vec3 InterfaceNormal(const IndicatorSet& indicators, MaterialId a, MaterialId b, const Vec3& x);
 
 /// Unit tangent of the curve where a, b and c meet (equation 8, with gradients of the differences, which span the
-/// same plane on the junction). Zero where they are degenerate.
+/// same plane on the junction). Zero where they are degenerate. The first is none beyond a face of the volume's box.
 Vec3 CurveTangent(const IndicatorSet& indicators, const MaterialId materials[3], const Vec3& x);
 
 /// Equation 7: the part of v in the plane with unit normal n.

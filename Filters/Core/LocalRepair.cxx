@@ -74,15 +74,15 @@ MaterialSet United(const MaterialSet& a, const MaterialSet& b)
 }
 }
 
-std::vector<Fault> FindFaults(const SurfaceComplex& complex)
+std::vector<Fault> FindFaults(const SurfaceComplex& complex, MaterialId outside)
 {
   const std::vector<InterfaceTriangle> faces = complex.AliveTriangles();
   std::vector<Fault> faults;
-  for (const Edge& edge : NonManifoldEdges(faces))
+  for (const Edge& edge : NonManifoldEdges(faces, outside))
   {
     faults.push_back({ { edge.first, edge.second }, {} });
   }
-  for (const Index vertex : NonManifoldVertices(faces))
+  for (const Index vertex : NonManifoldVertices(faces, outside))
   {
     faults.push_back({ { vertex }, {} });
   }
@@ -221,11 +221,11 @@ LocalRepair::Judgement LocalRepair::Judge(const Patch& patch, const std::vector<
       result.Faces.push_back(face);
     }
   }
-  for (const Edge& edge : NonManifoldEdges(complex.Faces))
+  for (const Edge& edge : NonManifoldEdges(complex.Faces, this->Indicators.Background()))
   {
     result.Badness += patch.Core[edge.first] || patch.Core[edge.second] ? NonManifoldCost : 0.0;
   }
-  for (const Index vertex : NonManifoldVertices(complex.Faces))
+  for (const Index vertex : NonManifoldVertices(complex.Faces, this->Indicators.Background()))
   {
     result.Badness += patch.Core[vertex] ? PinchedCost : 0.0;
   }
@@ -411,6 +411,7 @@ void LocalRepair::AppendCollapses(
         Patch variant = patch;
         variant.Particles[kept].Materials = united;
         variant.Particles[kept].CellDimension = std::min(p.CellDimension, q.CellDimension);
+        this->SnapToBorder(variant.Particles[kept]);
         variants.push_back(Without(variant, gone));
       }
     }
@@ -455,8 +456,17 @@ void LocalRepair::AppendJunctions(
         variants.push_back(patch);
         variants.back().Particles[v].Materials.Insert(lacking);
         variants.back().Particles[v].CellDimension = p.CellDimension == 2 ? 1 : 0;
+        this->SnapToBorder(variants.back().Particles[v]);
       }
     }
+  }
+}
+
+void LocalRepair::SnapToBorder(Particle& particle) const
+{
+  if (this->Indicators.Border())
+  {
+    this->Indicators.Border()->Snap(particle.Materials.begin(), particle.Materials.Size(), particle.Position);
   }
 }
 

@@ -17,7 +17,7 @@ struct Fault
 };
 
 /// The faults of an interface, in the order of its faces.
-std::vector<Fault> FindFaults(const SurfaceComplex& complex);
+std::vector<Fault> FindFaults(const SurfaceComplex& complex, MaterialId outside = NoMaterial);
 
 /// Mends faults one after another, each as a transaction: the particles within a few target lengths are
 /// tetrahedralised by themselves (the empty balls of interface faces are small, so that the faces around the fault are
@@ -85,6 +85,8 @@ private:
   void AppendSlides(const Patch& patch, const std::vector<Index>& site, std::vector<Patch>& variants) const;
   void AppendJunctions(
     const Patch& patch, const std::vector<Index>& site, const Fault& fault, std::vector<Patch>& variants) const;
+  /// Puts a particle whose set has grown on the faces of the volume's box that are in it.
+  void SnapToBorder(Particle& particle) const;
   void RelaxCore(Patch& patch) const;
   Replacement ReplacementBy(const Patch& before, const Patch& after, const std::vector<InterfaceTriangle>& faces) const;
   void Commit(const Patch& before, const Patch& after, const Replacement& replacement, Placing placing);

@@ -201,15 +201,18 @@ private:
 
   LossStage StageOfPair(const Pair& pair) const
   {
-    for (const MaterialId id : pair)
+    // Space outside is always there; a volume full of labels has no background of its own.
+    const auto gone = [&](const std::vector<double>& volumes)
     {
-      if (Gone(this->Input.MaskVolumes, id))
-      {
-        return LossStage::Split;
-      }
+      return std::any_of(pair.begin(), pair.end(),
+        [&](MaterialId id) { return id != this->Input.Voxels.Parts[0].Id && Gone(volumes, id); });
+    };
+    if (gone(this->Input.MaskVolumes))
+    {
+      return LossStage::Split;
     }
-    return this->StageOf(Gone(this->Input.TightVolumes, pair[0]) || Gone(this->Input.TightVolumes, pair[1]),
-      this->TightPairs.count(pair) > 0, this->SampledPairs.count(pair) > 0);
+    return this->StageOf(
+      gone(this->Input.TightVolumes), this->TightPairs.count(pair) > 0, this->SampledPairs.count(pair) > 0);
   }
 
   void AddParts(const std::vector<bool>& lost, std::vector<Loss>& losses) const

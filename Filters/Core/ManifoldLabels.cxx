@@ -406,8 +406,10 @@ private:
 struct VertexFaces
 {
   std::vector<Index> Starts, Faces;
+  MaterialId Outside; ///< what the space beyond the faces of the volume's box belongs to
 
-  explicit VertexFaces(const std::vector<InterfaceTriangle>& faces)
+  VertexFaces(const std::vector<InterfaceTriangle>& faces, MaterialId outside)
+    : Outside(outside)
   {
     Index points = 0;
     for (const InterfaceTriangle& face : faces)
@@ -445,7 +447,8 @@ struct VertexFaces
       const int own = face.Vertices[0] == v ? 0 : face.Vertices[1] == v ? 1 : 2;
       for (const MaterialId m : face.Materials)
       {
-        pieces.push_back({ m, face.Vertices[(own + 1) % 3], face.Vertices[(own + 2) % 3] });
+        pieces.push_back(
+          { IsBorder(m) ? this->Outside : m, face.Vertices[(own + 1) % 3], face.Vertices[(own + 2) % 3] });
       }
     }
   }
@@ -469,48 +472,51 @@ struct VertexFaces
 };
 }
 
-std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces)
+std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces, MaterialId outside)
 {
-  return VertexFaces(faces).Collect<Edge>(faces,
-    [](Index v, const std::vector<FanPiece>& pieces, std::vector<Edge>& found)
-    {
-      const std::size_t before = found.size();
-      ForTiedEdges(pieces,
-        [&](Index other)
-        {
-          if (other > v && std::find(found.begin() + before, found.end(), Edge(v, other)) == found.end())
+  return VertexFaces(faces, outside)
+    .Collect<Edge>(faces,
+      [](Index v, const std::vector<FanPiece>& pieces, std::vector<Edge>& found)
+      {
+        const std::size_t before = found.size();
+        ForTiedEdges(pieces,
+          [&](Index other)
           {
-            found.emplace_back(v, other);
-          }
-        });
-      std::sort(found.begin() + before, found.end());
-    });
+            if (other > v && std::find(found.begin() + before, found.end(), Edge(v, other)) == found.end())
+            {
+              found.emplace_back(v, other);
+            }
+          });
+        std::sort(found.begin() + before, found.end());
+      });
 }
 
-std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& faces)
+std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& faces, MaterialId outside)
 {
-  return VertexFaces(faces).Collect<Index>(faces,
-    [](Index v, std::vector<FanPiece>& pieces, std::vector<Index>& found)
-    {
-      if (ExtraFans(pieces) > 0)
+  return VertexFaces(faces, outside)
+    .Collect<Index>(faces,
+      [](Index v, std::vector<FanPiece>& pieces, std::vector<Index>& found)
       {
-        found.push_back(v);
-      }
-    });
+        if (ExtraFans(pieces) > 0)
+        {
+          found.push_back(v);
+        }
+      });
 }
 
 void MakeManifold(const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra, MaterialId outside,
   const std::vector<char>& core, TetraLabels& labels)
 {
   const std::vector<InterfaceTriangle> faces = InterfaceFaces(particles, tetrahedra, labels, outside);
-  std::vector<Index> faulty = VertexFaces(faces).Collect<Index>(faces,
-    [&core](Index v, std::vector<FanPiece>& pieces, std::vector<Index>& found)
-    {
-      if ((core.empty() || core[v]) && ExtraFans(pieces) + TiedEdges(pieces) > 0)
-      {
-        found.push_back(v);
-      }
-    });
+  std::vector<Index> faulty = VertexFaces(faces, outside)
+                                .Collect<Index>(faces,
+                                  [&core](Index v, std::vector<FanPiece>& pieces, std::vector<Index>& found)
+                                  {
+                                    if ((core.empty() || core[v]) && ExtraFans(pieces) + TiedEdges(pieces) > 0)
+                                    {
+                                      found.push_back(v);
+                                    }
+                                  });
   if (faulty.empty())
   {
     return;

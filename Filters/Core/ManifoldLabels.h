@@ -9,11 +9,12 @@ namespace LabelMesh
 {
 using Edge = std::pair<Index, Index>; ///< vertices, ascending
 
-/// Edges that the surface of some material uses other than twice, ascending.
-std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces);
+/// Edges that the surface of some material uses other than twice, ascending. The space beyond the faces of the volume's
+/// box is one with `outside`.
+std::vector<Edge> NonManifoldEdges(const std::vector<InterfaceTriangle>& faces, MaterialId outside = NoMaterial);
 
 /// Vertices where the triangles of some material form more than one fan, ascending.
-std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& faces);
+std::vector<Index> NonManifoldVertices(const std::vector<InterfaceTriangle>& faces, MaterialId outside = NoMaterial);
 
 /// Relabels tetrahedra at edges and vertices where a material's surface would not be manifold: necks and sheets thinner
 /// than the particles' distance, where the labels of single tetrahedra are left to chance. At each, a group of equally

@@ -169,8 +169,10 @@ namespace
 /// Calls set(sample of the box, whether it has the id) for all samples of the box.
 template <typename Set>
 void ForBox(const std::vector<MaterialId>& ids, const Lattice& lattice, MaterialId id, MaterialId background,
-  const Box& box, Set&& set)
+  const Box& box, Index layers, Set&& set)
 {
+  const auto within = [&](int axis, Index c) { return c >= -layers && c < lattice.Dims[axis] + layers; };
+  const auto nearest = [&](int axis, Index c) { return std::clamp<Index>(c, 0, lattice.Dims[axis] - 1); };
   const Index nx = box[1] - box[0] + 1, ny = box[3] - box[2] + 1, nz = box[5] - box[4] + 1;
   const bool beyond = id == background;
   ParallelFor(0, ny * nz, 0,
@@ -179,11 +181,11 @@ void ForBox(const std::vector<MaterialId>& ids, const Lattice& lattice, Material
       for (Index row = first; row < last; ++row)
       {
         const Index j = box[2] + row % ny, k = box[4] + row / ny;
-        const bool within = j >= 0 && j < lattice.Dims[1] && k >= 0 && k < lattice.Dims[2];
-        const MaterialId* from = within ? ids.data() + lattice.At(0, j, k) : nullptr;
+        const MaterialId* from =
+          within(1, j) && within(2, k) ? ids.data() + lattice.At(0, nearest(1, j), nearest(2, k)) : nullptr;
         for (Index i = box[0]; i <= box[1]; ++i)
         {
-          set(row * nx + i - box[0], from && i >= 0 && i < lattice.Dims[0] ? from[i] == id : beyond);
+          set(row * nx + i - box[0], from && within(0, i) ? from[nearest(0, i)] == id : beyond);
         }
       }
     });
@@ -197,7 +199,8 @@ void MaskOf(const std::vector<MaterialId>& ids, const Lattice& lattice, Material
   block.Dims = { box[1] - box[0] + 1, box[3] - box[2] + 1, box[5] - box[4] + 1 };
   if (!(options.OpeningRadius > 0) && !(options.ClosingRadius > 0))
   {
-    ForBox(ids, lattice, id, background, box, [mask](Index at, bool inside) { mask[at] = inside; });
+    ForBox(
+      ids, lattice, id, background, box, options.ContinuedLayers, [mask](Index at, bool inside) { mask[at] = inside; });
     return;
   }
   // Balls around samples of the box reach beyond it.
@@ -212,7 +215,8 @@ void MaskOf(const std::vector<MaterialId>& ids, const Lattice& lattice, Material
     grown.Dims[a] += 2 * margin[a];
   }
   Sides sides(static_cast<std::size_t>(grown.Size()));
-  ForBox(ids, lattice, id, background, wide, [&](Index at, bool inside) { sides[at] = inside; });
+  ForBox(
+    ids, lattice, id, background, wide, options.ContinuedLayers, [&](Index at, bool inside) { sides[at] = inside; });
   if (options.OpeningRadius > 0)
   {
     sides = Opened(grown, sides, options.OpeningRadius);

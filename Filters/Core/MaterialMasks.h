@@ -28,10 +28,12 @@ struct MaskOptions
 {
   double OpeningRadius = 0.0; ///< length; before the closing
   double ClosingRadius = 0.0; ///< length
+  int ContinuedLayers = 0;    ///< samples beyond the lattice that repeat the nearest one's id
 };
 
 /// 1 where a sample has the id, else 0, in a box that may reach beyond the lattice, where all samples have the id
-/// `background`. Opened and closed by balls as asked for. `mask` has room for the box, x fastest.
+/// `background` but for the continued layers. Opened and closed by balls as asked for. `mask` has room for the box, x
+/// fastest.
 void MaskOf(const std::vector<MaterialId>& ids, const Lattice& lattice, MaterialId id, MaterialId background,
   const Box& box, const MaskOptions& options, std::uint8_t* mask);
 }

@@ -45,7 +45,7 @@ void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const
 {
   using Placing = LocalRepair::Placing;
   Placing placing = Placing::Faces;
-  std::vector<Fault> faults = FindFaults(complex);
+  std::vector<Fault> faults = FindFaults(complex, indicators.Background());
   for (; result.Rounds < options.RepairRounds && !faults.empty(); ++result.Rounds)
   {
     LocalRepair repair(indicators, complex, std::min(options.RepairBelow, PoorRatio));
@@ -64,7 +64,38 @@ void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const
       complex = Build(indicators, repair.RemainingParticles(), result);
     }
     placing = mended == 0 ? Placing::Particles : Placing::Faces;
-    faults = FindFaults(complex);
+    faults = FindFaults(complex, indicators.Background());
+  }
+}
+
+/// Puts the particles of the volume's faces there exactly: on the way through world coordinates they may have lost
+/// bits.
+void SnapToBorder(const VolumeBox& border, std::vector<Particle>& particles)
+{
+  for (Particle& p : particles)
+  {
+    border.Snap(p.Materials.begin(), p.Materials.Size(), p.Position);
+  }
+}
+
+/// The space beyond the faces of the volume's box becomes background.
+void CallBackground(MaterialId background, InterfaceMesh& mesh)
+{
+  for (Particle& p : mesh.Vertices)
+  {
+    MaterialSet materials;
+    for (const MaterialId m : p.Materials)
+    {
+      materials.Insert(IsBorder(m) ? background : m);
+    }
+    p.Materials = materials;
+  }
+  for (InterfaceTriangle& triangle : mesh.Triangles)
+  {
+    for (MaterialId& m : triangle.Materials)
+    {
+      m = IsBorder(m) ? background : m;
+    }
   }
 }
 
@@ -136,10 +167,18 @@ MeshResult MeshInterfaces(
 {
   MeshResult result;
   monitor.Step(0.0, "Tetrahedralising");
+  if (indicators.Border())
+  {
+    SnapToBorder(*indicators.Border(), particles);
+  }
   SurfaceComplex complex = Build(indicators, std::move(particles), result);
   RepairFaults(indicators, complex, options, result, monitor.Part(0.5, 0.6));
   ImproveWithoutCuts(indicators, complex, options, result, monitor.Part(0.6, 0.9));
   result.Mesh = std::move(complex).Compacted();
+  if (indicators.Border())
+  {
+    CallBackground(indicators.Background(), result.Mesh);
+  }
   Judge(result.Mesh, options.RepairBelow, result);
   monitor.Step(1.0);
   return result;

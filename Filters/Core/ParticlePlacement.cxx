@@ -12,6 +12,10 @@ bool PlaceOnJunction(
   particle = Particle();
   particle.TargetLength = length;
   particle.Materials = materials;
+  if (!indicators.AnyInside(materials.begin(), materials.Size()))
+  {
+    return false;
+  }
   if (materials.Size() == 2)
   {
     return PutOnInterface(indicators, materials[0], materials[1], x, length, particle);

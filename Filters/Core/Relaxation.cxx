@@ -210,10 +210,30 @@ private:
   }
 };
 
+/// As the public one, on a face of the volume's box.
+bool PutOnBorder(
+  const IndicatorSet& indicators, MaterialId inside, MaterialId border, const Vec3& x, double reach, Particle& particle)
+{
+  Vec3 at = x;
+  indicators.Border()->Snap(&border, 1, at);
+  if ((at - x).squaredNorm() > reach * reach || indicators.IsBeaten(inside, border, at))
+  {
+    return false;
+  }
+  particle.Position = at;
+  particle.Normal = BorderNormal(border);
+  particle.Residual = 0.0;
+  return true;
+}
+
 /// As the public one; the Newton steps end when one is shorter than `tolerance` (voxels).
 bool PutOnInterface(const IndicatorSet& indicators, MaterialId a, MaterialId b, const Vec3& x, double reach,
   double tolerance, Particle& particle)
 {
+  if (IsBorder(b))
+  {
+    return PutOnBorder(indicators, a, b, x, reach, particle);
+  }
   const double voxel = indicators.VoxelSize();
   Vec3 at = x, gradient = Vec3::Zero();
   double residual = voxel;

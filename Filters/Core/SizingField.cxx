@@ -191,7 +191,7 @@ std::vector<Crossing> FindCrossings(const IndicatorSet& indicators)
     for (int a = 0; a < 3; ++a)
     {
       const Index next = at + stride[a];
-      if (c[a] + 1 >= lattice.Dims[a] || labels[at] == labels[next])
+      if (c[a] + 1 >= lattice.Dims[a] || !indicators.HaveInterface(labels[at], labels[next]))
       {
         continue;
       }

@@ -40,11 +40,11 @@ bool RunsFrom(const InterfaceTriangle& triangle, Index a, Index b)
   return false;
 }
 
-/// Whether a vertex may move to where `kept` is along an edge with `triangles` triangles.
-bool MayJoin(const Particle& gone, const Particle& kept, std::size_t triangles)
+/// Whether a vertex may move to where `kept` is along an edge with `triangles` triangles, on a 1-cell or not.
+bool MayJoin(const Particle& gone, const Particle& kept, std::size_t triangles, bool isOnCurve)
 {
   const bool onSurface = gone.CellDimension == 2 && gone.Materials.Size() == 2 && triangles == 2;
-  const bool onCurve = gone.CellDimension == 1 && gone.Materials.Size() == 3 && triangles >= 3;
+  const bool onCurve = gone.CellDimension == 1 && gone.Materials.Size() == 3 && isOnCurve;
   return (onSurface || onCurve) && kept.CellDimension <= gone.CellDimension &&
     std::all_of(gone.Materials.begin(), gone.Materials.end(), [&](MaterialId m) { return kept.Materials.Contains(m); });
 }
@@ -87,6 +87,17 @@ std::vector<std::int32_t> SurfaceComplex::EdgeStar(Index a, Index b) const
   std::copy_if(this->Stars[a].begin(), this->Stars[a].end(), std::back_inserter(star),
     [&](std::int32_t t) { return Has(this->Triangles[t], b); });
   return star;
+}
+
+bool SurfaceComplex::IsOnCurve(const std::vector<std::int32_t>& edge) const
+{
+  if (edge.size() != 2)
+  {
+    return edge.size() > 2;
+  }
+  const std::array<MaterialId, 2>&first = this->Triangles[edge[0]].Materials,
+                               &second = this->Triangles[edge[1]].Materials;
+  return std::minmax(first[0], first[1]) != std::minmax(second[0], second[1]);
 }
 
 bool SurfaceComplex::AreJoined(Index a, Index b) const
@@ -183,7 +194,7 @@ bool SurfaceComplex::Collapse(Index gone, Index kept)
 {
   const std::vector<std::int32_t> edge = this->EdgeStar(gone, kept);
   if (this->Frozen[gone] || this->Frozen[kept] || edge.empty() ||
-    !MayJoin(this->Vertices[gone], this->Vertices[kept], edge.size()))
+    !MayJoin(this->Vertices[gone], this->Vertices[kept], edge.size(), this->IsOnCurve(edge)))
   {
     return false;
   }
@@ -203,7 +214,7 @@ bool SurfaceComplex::Collapse(Index gone, Index kept)
   for (const Index v : opposite)
   {
     // Two edges of curves would become one.
-    if (this->EdgeStar(gone, v).size() > 2 && this->EdgeStar(kept, v).size() > 2)
+    if (this->IsOnCurve(this->EdgeStar(gone, v)) && this->IsOnCurve(this->EdgeStar(kept, v)))
     {
       return false;
     }

@@ -10,7 +10,8 @@
 namespace LabelMesh
 {
 /// Triangles with the triangles around every vertex. An edge has two triangles inside a 2-cell and three or more on a
-/// 1-cell. Deleted triangles have no vertices (-1), deleted vertices an empty star; Compacted() leaves both out.
+/// 1-cell, two of different interfaces where nothing but outside is behind one of its three. Deleted triangles have no
+/// vertices (-1), deleted vertices an empty star; Compacted() leaves both out.
 class SurfaceComplex
 {
 public:
@@ -26,6 +27,9 @@ public:
 
   /// The triangles at an edge.
   std::vector<std::int32_t> EdgeStar(Index a, Index b) const;
+  /// Whether an edge with these triangles lies on a 1-cell: three or more, or two of different interfaces (where a
+  /// material's surface bends round an edge of the volume's box).
+  bool IsOnCurve(const std::vector<std::int32_t>& edge) const;
   /// The two triangles (a, b, c) and (b, a, d) of an edge inside a 2-cell that may be flipped, with c and d; First is
   /// -1 where it may not: another number of triangles, of more than one interface, or c and d are joined already.
   struct Flippable

@@ -59,7 +59,8 @@ private:
         const Index coordinates[3] = { i, j, k };
         for (int axis = 0; axis < 3; ++axis)
         {
-          if (coordinates[axis] + 1 < frame.Dims[axis] && labels[at] != labels[at + steps[axis]])
+          if (coordinates[axis] + 1 < frame.Dims[axis] &&
+            this->Indicators.HaveInterface(labels[at], labels[at + steps[axis]]))
           {
             Vec3 middle = frame.Position(double(i), double(j), double(k));
             middle[axis] += 0.5 * frame.Spacing[axis];

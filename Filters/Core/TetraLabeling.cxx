@@ -40,7 +40,7 @@ MaterialSet SharedMaterials(const std::vector<Particle>& particles, const std::a
   MaterialSet shared;
   for (const MaterialId m : particles[corners[0]].Materials)
   {
-    if (particles[corners[1]].Materials.Contains(m) && particles[corners[2]].Materials.Contains(m) &&
+    if (!IsBorder(m) && particles[corners[1]].Materials.Contains(m) && particles[corners[2]].Materials.Contains(m) &&
       particles[corners[3]].Materials.Contains(m))
     {
       shared.Insert(m);
@@ -81,13 +81,19 @@ TetraLabels LabelTetrahedra(
         const Vec3 &a = particles[corners[0]].Position, &b = particles[corners[1]].Position,
                    &c = particles[corners[2]].Position, &d = particles[corners[3]].Position;
         Vec3 x = Circumcentre(a, b, c, d);
+        if (indicators.Border())
+        {
+          // All tetrahedra lie within the box; the fields beyond it are made up.
+          x = indicators.Border()->Clamped(x);
+        }
         const Vec3 index = working.ToIndex(x);
         const bool inside = (index.array() >= 0).all() && index[0] <= working.Dims[0] - 1 &&
           index[1] <= working.Dims[1] - 1 && index[2] <= working.Dims[2] - 1;
         if (shared.Size() == 0)
         {
           empty[t] = 1;
-          result.Labels[t] = indicators.LargestMaterial(0.25 * (a + b + c + d));
+          const MaterialId largest = indicators.LargestMaterial(0.25 * (a + b + c + d));
+          result.Labels[t] = IsBorder(largest) ? indicators.Background() : largest;
           continue;
         }
         if (!inside && shared.Contains(indicators.Background()))
@@ -121,6 +127,23 @@ bool IsWrong(const std::vector<Particle>& particles, const InterfaceTriangle& fa
   return false;
 }
 
+namespace
+{
+/// What lies beyond a face of the hull: the space beyond the face of the volume's box that all its vertices lie on, or
+/// `outside`.
+MaterialId BeyondHull(const std::vector<Particle>& particles, const std::array<Index, 3>& vertices, MaterialId outside)
+{
+  for (const MaterialId m : particles[vertices[0]].Materials)
+  {
+    if (IsBorder(m) && particles[vertices[1]].Materials.Contains(m) && particles[vertices[2]].Materials.Contains(m))
+    {
+      return m;
+    }
+  }
+  return outside;
+}
+}
+
 std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
   const Tetrahedralization& tetrahedra, const TetraLabels& labels, MaterialId outside)
 {
@@ -147,6 +170,10 @@ std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& parti
           for (int v = 0; v < 3; ++v)
           {
             face.Vertices[v] = corners[faces[j][v]];
+          }
+          if (neighbor < 0)
+          {
+            face.Materials[1] = BeyondHull(particles, face.Vertices, outside);
           }
           const Vec3& a = particles[face.Vertices[0]].Position;
           const Vec3 normal =

@@ -23,10 +23,12 @@ struct TetraLabels
 TetraLabels LabelTetrahedra(
   const IndicatorSet& indicators, const std::vector<Particle>& particles, const Tetrahedralization& tetrahedra);
 
-/// The materials that all four corners of a tetrahedron share: those that it may be labelled with.
+/// The materials that all four corners of a tetrahedron share: those that it may be labelled with. The space beyond the
+/// faces of the volume's box is none: every tetrahedron lies within.
 MaterialSet SharedMaterials(const std::vector<Particle>& particles, const std::array<std::int32_t, 4>& corners);
 
-/// The faces between tetrahedra of different labels; beyond the hull is `outside`. Vertices are the particles' indices.
+/// The faces between tetrahedra of different labels; beyond the hull is `outside`, or the space beyond the face of the
+/// volume's box that the vertices lie on. Vertices are the particles' indices.
 std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
   const Tetrahedralization& tetrahedra, const TetraLabels& labels, MaterialId outside);
 

@@ -200,13 +200,25 @@ private:
     }
     Particle middle;
     const double length = std::min(p.TargetLength, q.TargetLength);
-    if ((materials.Size() != 2 && materials.Size() != 3) || star.size() != std::size_t(materials.Size()) ||
+    if ((materials.Size() != 2 && materials.Size() != 3) || star.size() != this->Interfaces(materials) ||
       !PlaceOnJunction(this->Indicators, materials, 0.5 * (p.Position + q.Position), length, middle))
     {
       return false;
     }
     const auto normals = this->Normals({ a, b });
     return this->Complex.Split(a, b, middle) && this->KeepTheirSide(normals);
+  }
+
+  /// How many triangles an edge inside the junction of two or three materials has.
+  std::size_t Interfaces(const MaterialSet& materials) const
+  {
+    if (materials.Size() == 2)
+    {
+      return 2;
+    }
+    const MaterialId a = materials[0], b = materials[1], c = materials[2];
+    return std::size_t(this->Indicators.HaveInterface(a, b)) + std::size_t(this->Indicators.HaveInterface(a, c)) +
+      std::size_t(this->Indicators.HaveInterface(b, c));
   }
 
   const IndicatorSet& Indicators;

@@ -27,7 +27,8 @@ inline Lattice MakeLattice(
 class SampledFields
 {
 public:
-  SampledFields(const Lattice& lattice, const std::vector<Field>& fields)
+  SampledFields(
+    const Lattice& lattice, const std::vector<Field>& fields, const std::optional<VolumeBox>& border = std::nullopt)
     : Samples(fields.size())
   {
     std::vector<IndicatorBlock> blocks(fields.size());
@@ -44,7 +45,7 @@ public:
       blocks[m].Values = this->Samples[m].data();
       blocks[m].Outside = m == 0 ? 100.0 : -100.0;
     }
-    this->Set = std::make_unique<IndicatorSet>(std::move(blocks), 0, lattice);
+    this->Set = std::make_unique<IndicatorSet>(std::move(blocks), 0, lattice, border);
   }
   const IndicatorSet& operator*() const { return *this->Set; }
   const IndicatorSet* operator->() const { return this->Set.get(); }

@@ -244,6 +244,16 @@ class TestOutput(CommandLineTest):
         self.assertAlmostEqual(kept[()], 1, delta=0.1)
         self.assertLess(kept[("tighten",)], kept[()] - 0.02)
 
+    def test_flat_border(self):
+        """A volume full of labels comes out as its box of voxels."""
+        labels = np.ones((20, 24, 28), np.uint8)
+        labels[:, :, 11:] = 2
+        make_volumes.write_mha(self.folder / "full.mha", labels)
+        self.mesh("full.mha", "-o", "m.vtp", "--report", "r.json", "--quiet", "--border", "flat")
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertAlmostEqual(sum(m["volume"] for m in report["materials"] if m["label"] > 0), 20 * 24 * 28, places=8)
+        self.assertEqual(report["lost"], [])
+
     def test_one_foreground_label_that_fills_the_volume(self):
         make_volumes.write_mha(self.folder / "full.mha", np.full((20, 20, 20), 3, np.uint8))
         self.mesh("full.mha", "-o", "m.vtp", "--report", "r.json", "--quiet")
@@ -315,6 +325,8 @@ class TestRefusals(CommandLineTest):
         self.refuse("needs a value", self.spheres, "-o")
         self.refuse("needs a number", self.spheres, *mesh, "--radius", "wide")
         self.refuse("at least", self.spheres, *mesh, "--radius", "-1")
+        self.refuse("closed or flat", self.spheres, *mesh, "--border", "round")
+        self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--border", "flat")
         self.refuse("volume or tighten", self.spheres, *mesh, "--smoothing", "none")
         self.refuse("particle or grid", self.spheres, *mesh, "--method", "magic")
         self.refuse("surfaces only", self.spheres, *mesh, "--tets", "t.vtu")
