@@ -288,7 +288,8 @@ std::string HelpText()
   return R"(usage: labelmesh INPUT [-o mesh.vtp] [--surfaces s.vtpc] [--particles p.vtp] [--report r.json] [options]
 
 Meshes all material interfaces of a label volume: watertight, conforming, adaptive.
-INPUT: .mha .mhd .nrrd .nii .nii.gz .vti; one integer label per voxel.
+INPUT: .mha .mhd .nrrd .nii .nii.gz .vti; one integer label per voxel. Names and colors of 3D Slicer's .seg.nrrd are
+kept.
 
 Files to write (each only when asked for, and only whole):
   -o FILE.vtp           triangles, each once, with the labels of its two sides (BoundaryLabels)

@@ -30,6 +30,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -232,8 +233,16 @@ private:
   std::string Stage;
 };
 
-void Apply(const CommandLine& line, vtkLabelMesher* mesher)
+void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& styles, vtkLabelMesher* mesher)
 {
+  for (const auto& [label, style] : styles)
+  {
+    mesher->SetMaterialName(label, style.Name.c_str());
+    if (style.Color)
+    {
+      mesher->SetMaterialColor(label, (*style.Color)[0], (*style.Color)[1], (*style.Color)[2]);
+    }
+  }
   const auto set = [mesher](const std::optional<double>& value, void (vtkLabelMesher::*setter)(double))
   {
     if (value)
@@ -350,7 +359,8 @@ void MeshVolume(const CommandLine& line)
   }
   ReportInput report;
   report.Threads = UseThreads(line.Threads);
-  const vtkSmartPointer<vtkImageData> volume = ReadVolume(line.Input);
+  std::map<long long, LabelStyle> styles; // --material comes before them
+  const vtkSmartPointer<vtkImageData> volume = ReadVolume(line.Input, styles);
   const LabelArray labels = FindLabels(volume);
   if (labels.Array && !labels.Array->GetName())
   {
@@ -379,7 +389,7 @@ void MeshVolume(const CommandLine& line)
   }
   else
   {
-    Apply(line, mesher);
+    Apply(line, styles, mesher);
     Run(mesher.Get(), line, volume, labels);
     for (int s = 0; s < mesher->GetNumberOfStages(); ++s)
     {
