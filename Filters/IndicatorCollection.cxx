@@ -6,6 +6,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
+#include <vtkDemandDrivenPipeline.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
@@ -379,6 +380,26 @@ const float* BlockValues(vtkPartitionedDataSetCollection* collection, unsigned i
 const std::uint8_t* BlockMask(vtkPartitionedDataSetCollection* collection, unsigned int n)
 {
   return BlockArray<vtkUnsignedCharArray>(collection, n, Names::Mask, "uint8")->GetPointer(0);
+}
+
+bool IsGivenUp(vtkInformation* inInfo)
+{
+  return inInfo->Get(vtkDemandDrivenPipeline::RELEASE_DATA()) != 0;
+}
+
+vtkSmartPointer<vtkDataArray> TakeArray(
+  vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName)
+{
+  vtkImageData* block = BlockImage(collection, n);
+  vtkSmartPointer<vtkDataArray> array = block->GetPointData()->GetArray(arrayName);
+  const bool alone = array && array->GetReferenceCount() == 2 && block->GetReferenceCount() == 1 &&
+    collection->GetPartitionedDataSet(n)->GetReferenceCount() == 1;
+  if (!alone)
+  {
+    return nullptr;
+  }
+  block->GetPointData()->RemoveArray(arrayName);
+  return array;
 }
 
 IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header)

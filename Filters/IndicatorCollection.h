@@ -14,6 +14,8 @@
 #include "Core/GridFrame.h"
 #include "Core/IndicatorSet.h"
 
+#include <vtkSmartPointer.h>
+
 #include <string>
 #include <vector>
 
@@ -69,6 +71,12 @@ vtkImageData* BlockImage(vtkPartitionedDataSetCollection* collection, unsigned i
 const float* BlockValues(vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName);
 /// The same of the uint8 array Mask.
 const std::uint8_t* BlockMask(vtkPartitionedDataSetCollection* collection, unsigned int n);
+
+/// Whether the filter before releases its data once the filter has run that this is the input information of.
+bool IsGivenUp(vtkInformation* inInfo);
+/// Takes an array out of a block of a collection that is given up; null when others hold the block or the array.
+vtkSmartPointer<vtkDataArray> TakeArray(
+  vtkPartitionedDataSetCollection* collection, unsigned int n, const char* arrayName);
 
 /// An evaluator over the collection's Indicator arrays (shared, not copied: keep the collection alive).
 IndicatorSet MakeIndicatorSet(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header);

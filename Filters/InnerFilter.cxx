@@ -6,6 +6,7 @@
 #include <vtkExecutive.h>
 #include <vtkSetGet.h>
 
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -18,12 +19,13 @@ namespace
 class Listener
 {
 public:
-  Listener(vtkAlgorithm* inner, vtkAlgorithm* outer, const Monitor& monitor, const std::string& stage)
-    : Inner(inner)
+  Listener(const InnerStage& stage, vtkAlgorithm* outer, const Monitor& monitor)
+    : Inner(stage.Filter)
     , Outer(outer)
     , Progress(monitor)
-    , Stage(stage)
+    , Stage(stage.Name)
   {
+    vtkAlgorithm* const inner = this->Inner;
     this->Observe(inner, vtkCommand::ProgressEvent, &Listener::OnProgress);
     for (vtkObject* speaker : { static_cast<vtkObject*>(inner), static_cast<vtkObject*>(inner->GetExecutive()) })
     {
@@ -85,23 +87,45 @@ private:
 };
 }
 
-void UpdateInner(vtkAlgorithm* inner, vtkAlgorithm* outer, const Monitor& monitor, const std::string& stage)
+void UpdateInner(const std::vector<InnerStage>& chain, vtkAlgorithm* outer, const Monitor& monitor)
 {
-  monitor.Step(0.0, stage);
-  Listener listener(inner, outer, monitor, stage);
-  inner->SetAbortExecute(0);
-  inner->Update();
-  if (listener.Stopped || !listener.Error.empty())
+  double total = 0.0, done = 0.0;
+  for (const InnerStage& stage : chain)
   {
-    inner->Modified();
+    total += stage.Weight;
   }
-  if (listener.Stopped)
+  monitor.Step(0.0, chain.front().Name);
+  std::vector<std::unique_ptr<Listener>> listeners;
+  for (const InnerStage& stage : chain)
+  {
+    const Monitor part = monitor.Part(done / total, (done + stage.Weight) / total);
+    listeners.push_back(std::make_unique<Listener>(stage, outer, part));
+    stage.Filter->SetAbortExecute(0);
+    done += stage.Weight;
+  }
+  chain.back().Filter->Update();
+  // What a filter says that had to work on what a failed one left is of no interest.
+  bool stopped = false;
+  std::string error;
+  for (const auto& listener : listeners)
+  {
+    stopped = stopped || listener->Stopped;
+    error = error.empty() ? listener->Error : error;
+  }
+  for (const InnerStage& stage : chain)
+  {
+    if (stopped || !error.empty())
+    {
+      stage.Filter->Modified(); // all of them: one that failed may have taken over what those before it had made
+    }
+  }
+  if (stopped)
   {
     throw Aborted();
   }
-  if (!listener.Error.empty())
+  if (!error.empty())
   {
-    throw std::runtime_error(listener.Error);
+    throw std::runtime_error(error);
   }
   monitor.Step(1.0);
 }

@@ -19,6 +19,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
+#include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 
@@ -55,8 +56,8 @@ void PassFieldData(vtkFieldData* from, vtkFieldData* to)
 }
 
 /// Port 0: the distances and each material's constant.
-void Reconstruct(vtkPartitionedDataSetCollection* input, const CollectionHeader& header, double perturbation,
-  vtkPartitionedDataSetCollection* output, const Monitor& monitor)
+void Reconstruct(vtkPartitionedDataSetCollection* input, bool givenUp, const CollectionHeader& header,
+  double perturbation, vtkPartitionedDataSetCollection* output, const Monitor& monitor)
 {
   WriteHeader(output, header);
   PassFieldData(input->GetFieldData(), output->GetFieldData());
@@ -72,11 +73,22 @@ void Reconstruct(vtkPartitionedDataSetCollection* input, const CollectionHeader&
     vtkImageData* block = BlockImage(input, n);
     const float* distance = BlockValues(input, n, Names::TightDistance);
     const float constant = float(perturbation * voxel * GoldenSequence(n));
-    vtkNew<vtkFloatArray> values;
+    // In the distances' own memory if nobody else wants them.
+    vtkSmartPointer<vtkFloatArray> values =
+      givenUp ? vtkFloatArray::FastDownCast(TakeArray(input, n, Names::TightDistance)) : nullptr;
+    if (!values)
+    {
+      values = vtkSmartPointer<vtkFloatArray>::New();
+      values->SetNumberOfValues(block->GetNumberOfPoints());
+    }
     values->SetName(Names::Indicator);
-    values->SetNumberOfValues(block->GetNumberOfPoints());
-    std::transform(distance, distance + block->GetNumberOfPoints(), values->GetPointer(0),
-      [constant](float value) { return value + constant; });
+    float* const indicator = values->GetPointer(0);
+    ParallelFor(0, block->GetNumberOfPoints(), 0,
+      [=](Index first, Index last)
+      {
+        std::transform(
+          distance + first, distance + last, indicator + first, [constant](float value) { return value + constant; });
+      });
     AppendBlock(output, header.Materials[n], FrameOf(block), values);
     PassFieldData(block->GetFieldData(), BlockImage(output, n)->GetFieldData());
   }
@@ -239,13 +251,14 @@ int vtkIndicatorReconstruct::RequestData(
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
   vtkImageData* image = vtkImageData::GetData(outputVector, 1);
-  return RunStage(this,
+  const bool givenUp = IsGivenUp(inputVector[0]->GetInformationObject(0));
+  const int done = RunStage(this,
     [&](const Monitor& monitor)
     {
       const CollectionHeader header = ReadHeader(input);
       const std::vector<MaterialId> inspected =
         header.Materials.empty() ? std::vector<MaterialId>() : FindMaterials(this->InspectedLabels, header);
-      Reconstruct(input, header, this->Perturbation, output, monitor.Part(0.0, 0.4));
+      Reconstruct(input, givenUp, header, this->Perturbation, output, monitor.Part(0.0, 0.4));
       if (header.Materials.empty())
       {
         AttachLabels(image, RebuiltLabels());
@@ -270,6 +283,11 @@ int vtkIndicatorReconstruct::RequestData(
         AttachFunctions(image, indicators, lattice, inspected, this->SmoothMaximumEpsilon, monitor.Part(0.6, 1.0));
       }
     });
+  if (!done && givenUp)
+  {
+    input->ReleaseData(); // it may not be whole any more
+  }
+  return done;
 }
 
 void vtkIndicatorReconstruct::PrintSelf(ostream& os, vtkIndent indent)

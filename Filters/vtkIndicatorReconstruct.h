@@ -28,6 +28,9 @@
  * four materials, which the method's general position excludes. A constant of at most Perturbation voxels is added to
  * each material's distance, from a golden-ratio sequence of its position among the labels, so that they come apart.
  *
+ * Memory: the indicators are as large as the distances. Where the filter before is told to release its data
+ * (vtkAlgorithm::ReleaseDataFlagOn) and nothing else holds its arrays, they take the distances' memory over.
+ *
  * The smooth maximum is displaced where three or more materials meet (Core/SmoothMaximum.h); it serves inspection only.
  *
  * Errors: blocks without "TightDistance", more than four inspected labels, a label that is not among the materials.

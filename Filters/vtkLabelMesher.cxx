@@ -33,6 +33,7 @@
 #include <chrono>
 #include <cstring>
 #include <stdexcept>
+#include <vector>
 
 vtkStandardNewMacro(vtkLabelMesher);
 
@@ -91,6 +92,10 @@ public:
 
   Pipeline()
   {
+    // The fields are by far the largest data: one copy of them is kept, the indicators, which take the memory of the
+    // distances over.
+    this->Split->ReleaseDataFlagOn();
+    this->Tighten->ReleaseDataFlagOn();
     this->Split->SetInputConnection(this->Labels.GetOutputPort());
     this->Tighten->SetInputConnection(this->Split->GetOutputPort());
     this->Reconstruct->SetInputConnection(this->Tighten->GetOutputPort());
@@ -126,11 +131,19 @@ public:
   /// Brings one stage after the other up to date.
   void Update(vtkAlgorithm* outer, const LabelMesh::Monitor& monitor)
   {
-    double done = 0.0;
+    // The first stages run for the one that keeps its output.
+    double done = 0.0, next = 0.0;
+    std::vector<LabelMesh::InnerStage> chain;
     for (const Stage& stage : this->All)
     {
-      LabelMesh::UpdateInner(stage.Filter, outer, monitor.Part(done, done + stage.Weight), stage.Name);
-      done += stage.Weight;
+      chain.push_back({ stage.Filter, stage.Name, stage.Weight });
+      next += stage.Weight;
+      if (!stage.Filter->GetReleaseDataFlag())
+      {
+        LabelMesh::UpdateInner(chain, outer, monitor.Part(done, next));
+        done = next;
+        chain.clear();
+      }
     }
   }
 
@@ -279,7 +292,7 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
       surfaces->ShallowCopy(stages.Mesh->GetOutputDataObject(1));
       vtkDataObject::GetData(outputVector, 2)->ShallowCopy(stages.Sample->GetOutputDataObject(0));
       vtkDataObject::GetData(outputVector, 3)->ShallowCopy(stages.Sample->GetOutputDataObject(1));
-      vtkFieldData* volumes = stages.Tighten->GetOutputDataObject(0)->GetFieldData();
+      vtkFieldData* volumes = stages.Reconstruct->GetOutputDataObject(0)->GetFieldData();
       for (const char* name : { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes })
       {
         if (vtkAbstractArray* array = volumes->GetAbstractArray(name))

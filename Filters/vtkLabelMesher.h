@@ -4,8 +4,9 @@
  * @brief   From a label volume to a watertight mesh of all its materials, in one step.
  *
  * The whole chain in one filter: vtkLabelSplit, vtkTighten, vtkIndicatorReconstruct, vtkSizingField,
- * vtkParticleSampleCells, vtkDelaunayLabelMesh. Every stage keeps its output, so that a change runs only the stages
- * that it concerns: a new Epsilon does not tighten again.
+ * vtkParticleSampleCells, vtkDelaunayLabelMesh. Stages keep their outputs, so that a change runs only the stages that it
+ * concerns: a new Epsilon does not tighten again. The first three share one output, the indicators, which are by far
+ * the largest data: a change of any of their properties runs all three.
  *
  * Input port 0 (vtkImageData): labels, SetInputArrayToProcess(0, ...), by default the active point or cell scalars; see
  * vtkLabelSplit.
@@ -143,7 +144,7 @@ public:
   ///@}
 
   ///@{
-  /// vtkParticleSampleCells: relaxation sweeps (30), seed (1).
+  /// vtkParticleSampleCells: relaxation sweeps (20), seed (1).
   void SetSweeps(int sweeps);
   int GetSweeps() const;
   void SetSeed(int seed);

@@ -9,6 +9,7 @@
 #include "WorkingImage.h"
 
 #include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -38,9 +39,10 @@ Grid<float> ReadLengths(vtkImageData* image, const GridFrame& source)
       "' with one component. Connect the output of Sizing Field.");
   }
   Grid<float> lengths(source.LatticeOf(FrameOf(image)));
+  vtkFloatArray* floats = vtkFloatArray::FastDownCast(array);
   for (Index at = 0; at < lengths.Frame.Size(); ++at)
   {
-    const double length = array->GetComponent(at, 0);
+    const double length = floats ? double(floats->GetValue(at)) : array->GetComponent(at, 0);
     if (!(length > 0))
     {
       throw std::invalid_argument(std::string("The array '") + Names::TargetLength + "' holds " +

@@ -49,7 +49,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Relaxation sweeps over the particles on 2-cells. Default 30.
+  /// Relaxation sweeps over the particles on 2-cells. Default 20.
   vtkSetClampMacro(Sweeps, int, 0, 10000);
   vtkGetMacro(Sweeps, int);
   ///@}
@@ -82,7 +82,7 @@ protected:
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  int Sweeps = 40;
+  int Sweeps = 20;
   int Seed = 1;
   vtkIdType CellParticles[3] = { 0, 0, 0 };
   vtkIdType OpenCurveEnds = 0;

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <numeric>
 
 vtkStandardNewMacro(vtkTighten);
@@ -64,6 +65,16 @@ struct Job
   vtkSmartPointer<vtkFloatArray> Distance;
   TightenVolumes Volumes;
   std::exception_ptr Problem;
+  std::function<void()> Release = []() {}; ///< gives the mask's memory back, if nobody else wants it
+
+  /// Memory for the result.
+  float* Place()
+  {
+    this->Distance = vtkSmartPointer<vtkFloatArray>::New();
+    this->Distance->SetName(Names::TightDistance);
+    this->Distance->SetNumberOfValues(this->Frame.Size());
+    return this->Distance->GetPointer(0);
+  }
 };
 
 /// Tightens many small materials at once. Each runs in one thread; exceptions wait until all are done.
@@ -77,7 +88,8 @@ void TightenTogether(std::vector<Job>& jobs, const std::vector<std::size_t>& cho
         Job& job = jobs[chosen[n]];
         try
         {
-          job.Volumes = Tighten(job.Frame, job.Mask, job.Options, Monitor(), job.Distance->GetPointer(0));
+          job.Volumes = Tighten(job.Frame, job.Mask, job.Options, Monitor(), job.Place());
+          job.Release();
         }
         catch (...)
         {
@@ -133,7 +145,8 @@ void TightenAll(std::vector<Job>& jobs, const std::vector<Material>& materials, 
           part.Step(fraction, text + " of " + name); // throws to stop
           return false;
         });
-      job.Volumes = Tighten(job.Frame, job.Mask, job.Options, named, job.Distance->GetPointer(0));
+      job.Volumes = Tighten(job.Frame, job.Mask, job.Options, named, job.Place());
+      job.Release();
       done += double(size);
     }
     else
@@ -166,7 +179,11 @@ void SmoothTogether(
   for (std::size_t n = 0; n < jobs.size(); ++n)
   {
     masks.push_back({ header.Materials[n].Name, jobs[n].Frame, jobs[n].Mask, jobs[n].Options.Radius,
-      jobs[n].Distance->GetPointer(0) });
+      [&job = jobs[n]]()
+      {
+        job.Release();
+        return job.Place();
+      } });
   }
   const std::vector<TightenVolumes> volumes =
     SmoothJointly(header.Source.LatticeOf(header.WorkingFrame()), masks, options, monitor);
@@ -293,7 +310,8 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
-  return RunStage(this,
+  const bool givenUp = IsGivenUp(inputVector[0]->GetInformationObject(0));
+  const int done = RunStage(this,
     [&](const Monitor& monitor)
     {
       const CollectionHeader header = ReadHeader(input);
@@ -303,9 +321,10 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
         jobs[n].Frame = header.Source.LatticeOf(FrameOf(BlockImage(input, n)));
         jobs[n].Mask = BlockMask(input, n);
         jobs[n].Options = OptionsOf(this, header.Materials[n].Label);
-        jobs[n].Distance = vtkSmartPointer<vtkFloatArray>::New();
-        jobs[n].Distance->SetName(Names::TightDistance);
-        jobs[n].Distance->SetNumberOfValues(jobs[n].Frame.Size());
+        if (givenUp)
+        {
+          jobs[n].Release = [input, n]() { TakeArray(input, n, Names::Mask); };
+        }
       }
       const std::string unknown = UnknownLabels(this->MaterialRadii, header);
       if (!unknown.empty())
@@ -340,6 +359,11 @@ int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector,
       WriteHeader(output, header);
       AddVolumes(output->GetFieldData(), jobs);
     });
+  if (!done && givenUp)
+  {
+    input->ReleaseData(); // it may not be whole any more
+  }
+  return done;
 }
 
 void vtkTighten::PrintSelf(ostream& os, vtkIndent indent)

@@ -25,6 +25,9 @@
  *  - antialiasing (Whitaker 2000): AntialiasIterations of curvature flow that keep every voxel on its side;
  *  - tightening, as above.
  *
+ * Memory: where the filter before is told to release its data (vtkAlgorithm::ReleaseDataFlagOn) and nothing else holds
+ * its arrays, each mask goes as soon as it is used up.
+ *
  * Limits: with Tightening, parts thinner than twice the radius vanish, whole small materials with them, and where
  * neighbours, smoothed apart from each other, overlap or leave a gap the largest field wins. With VolumeKeeping, plates
  * of one voxel may thicken by half or vanish, by how they lie in the grid, and single voxels vanish.

@@ -34,12 +34,16 @@ fs::path FolderOf(const std::string& file)
   return folder.empty() ? fs::path(".") : folder;
 }
 
-/// Writers are set to binary data within the elements: VTK 9.1 and 9.2 cannot read appended data back with the Expat that
-/// Debian 12 has since its security updates.
+/// Writers are set to binary data within the elements: VTK 9.1 and 9.2 cannot read appended data back with the Expat
+/// that Debian 12 has since its security updates. Zlib at its fastest: the default level takes almost three times as
+/// long for 3 % smaller meshes, and fewer programs than VTK know its other compressors.
 template <typename Writer>
 void RunWriter(Writer* writer, const std::string& file, const std::string& path)
 {
   Messages messages(writer);
+  writer->SetDataModeToBinary();
+  writer->SetCompressorTypeToZLib();
+  writer->SetCompressionLevel(1);
   writer->SetFileName(path.c_str());
   const int written = writer->Write();
   std::error_code ignored;
@@ -141,7 +145,6 @@ std::string OutputFiles::StagedPath(const std::string& file)
 void OutputFiles::WriteMesh(const std::string& file, vtkPolyData* mesh)
 {
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetDataModeToBinary();
   writer->SetInputData(mesh);
   RunWriter(writer.Get(), file, this->StagedPath(file));
 }
@@ -149,7 +152,6 @@ void OutputFiles::WriteMesh(const std::string& file, vtkPolyData* mesh)
 void OutputFiles::WriteSurfaces(const std::string& file, vtkPartitionedDataSetCollection* surfaces)
 {
   vtkNew<vtkXMLPartitionedDataSetCollectionWriter> writer;
-  writer->SetDataModeToBinary();
   writer->SetInputDataObject(surfaces);
   RunWriter(writer.Get(), file, this->StagedPath(file));
 }

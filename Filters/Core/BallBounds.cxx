@@ -17,7 +17,8 @@ constexpr float Tolerance =
 constexpr float RoundOff = 0.01f; // voxels: a plate as thick as the ball fits
 constexpr float Nothing = -1e6f;  // no ball
 constexpr float Everything = 1e6f;
-constexpr double HeldBeyond = 1.0; // voxels beyond the radius: farther samples keep their value
+constexpr double HeldBeyond = 1.0; // voxels beyond the radius: farther samples keep their value. 0.5 saves a twentieth
+                                   // of the time, and 45 of a million samples of the frog change their side.
 
 /// Samples within reach of a ball's centre, as offsets in memory.
 struct Offset

@@ -172,6 +172,40 @@ void FlowUpwind(const CrossingStencil& stencil, const float* __restrict phi, flo
 }
 
 LABELMESH_FOR_ANY_X86
+void FindCrossedCells(const float* __restrict row, Index count, Index y, Index z, std::int32_t* __restrict crossed)
+{
+  ForLanes(count,
+    [&](auto lanes, Index i)
+    {
+#pragma omp simd
+      for (int l = 0; l < decltype(lanes)::Size; ++l)
+      {
+        const float* p = row + i + l;
+        const int side = p[0] > 0;
+        crossed[i + l] = ((p[1] > 0) ^ side) | ((p[y] > 0) ^ side) | ((p[y + 1] > 0) ^ side) | ((p[z] > 0) ^ side) |
+          ((p[z + 1] > 0) ^ side) | ((p[z + y] > 0) ^ side) | ((p[z + y + 1] > 0) ^ side);
+      }
+    });
+}
+
+LABELMESH_FOR_ANY_X86
+void FindBeside(const float* __restrict row, Index count, Index y, Index z, std::int32_t* __restrict beside)
+{
+  ForLanes(count,
+    [&](auto lanes, Index i)
+    {
+#pragma omp simd
+      for (int l = 0; l < decltype(lanes)::Size; ++l)
+      {
+        const float* p = row + i + l;
+        const int side = p[0] > 0;
+        beside[i + l] = ((p[1] > 0) ^ side) | ((p[-1] > 0) ^ side) | ((p[y] > 0) ^ side) | ((p[-y] > 0) ^ side) |
+          ((p[z] > 0) ^ side) | ((p[-z] > 0) ^ side);
+      }
+    });
+}
+
+LABELMESH_FOR_ANY_X86
 void PlaceBeside(const CrossingStencil& stencil, const float* __restrict phi, float* __restrict next,
   const BandLayout::Run* runs, Index count, float* __restrict signs)
 {

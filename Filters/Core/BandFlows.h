@@ -49,6 +49,11 @@ void FlowBetween(const CurvatureStencil& stencil, const float* phi, float* next,
 /// One upwind step of phi_t = s (1 - |grad phi|), s = -1, 0 or 1 per sample (Godunov's flux).
 void FlowUpwind(const CrossingStencil& stencil, const float* phi, float* next, const BandLayout::Run* runs, Index count,
   const float* signs, float step);
+/// 1 for samples whose cell, the one between them and their neighbours further on, has corners on both sides, else 0.
+void FindCrossedCells(const float* row, Index count, Index y, Index z, std::int32_t* crossed);
+/// 1 for samples that have a neighbour on the other side, else 0.
+void FindBeside(const float* row, Index count, Index y, Index z, std::int32_t* beside);
+
 /// Samples beside the zero set get their distance to the plane through it (see ZeroCrossing) and sign 0, the others
 /// stay and get the sign of theirs.
 void PlaceBeside(const CrossingStencil& stencil, const float* phi, float* next, const BandLayout::Run* runs,

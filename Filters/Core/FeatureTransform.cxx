@@ -57,7 +57,7 @@ class Envelope
 public:
   explicit Envelope(int length)
     : Vertex(length)
-    , Height(length)
+    , Lifted(length)
     , From(length)
     , Seed(length)
   {
@@ -67,23 +67,22 @@ public:
 
   void Add(int vertex, double height, std::int32_t seed, double squaredSpacing)
   {
-    double from = -std::numeric_limits<double>::infinity();
     const double lifted = height + squaredSpacing * vertex * vertex;
+    double rise = 0.0, run = 1.0; // the new one is the lowest from rise / run on
     while (this->Count > 0)
     {
       const int k = this->Count - 1;
-      const double other = this->Height[k] + squaredSpacing * this->Vertex[k] * this->Vertex[k];
-      from = (lifted - other) / (2 * squaredSpacing * (vertex - this->Vertex[k]));
-      if (from > this->From[k])
+      rise = lifted - this->Lifted[k];
+      run = 2 * squaredSpacing * (vertex - this->Vertex[k]);
+      if (rise > this->From[k] * run)
       {
         break;
       }
       --this->Count;
-      from = -std::numeric_limits<double>::infinity();
     }
     this->Vertex[this->Count] = vertex;
-    this->Height[this->Count] = height;
-    this->From[this->Count] = from;
+    this->Lifted[this->Count] = lifted;
+    this->From[this->Count] = this->Count > 0 ? rise / run : -std::numeric_limits<double>::infinity();
     this->Seed[this->Count] = seed;
     ++this->Count;
   }
@@ -107,8 +106,8 @@ public:
 
 private:
   std::vector<int> Vertex;
-  std::vector<double> Height;
-  std::vector<double> From; ///< where each parabola begins to be the lowest
+  std::vector<double> Lifted; ///< g_k + (s t_k)^2
+  std::vector<double> From;   ///< where each parabola begins to be the lowest
   std::vector<std::int32_t> Seed;
   int Count = 0;
 };

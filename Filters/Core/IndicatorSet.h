@@ -44,6 +44,8 @@ struct MaterialSpan
 class IndicatorSet
 {
 public:
+  static constexpr int TileSize = 4; ///< cells of the working lattice along each axis that share their candidates
+
   /// `working` is the lattice that covers every block; blocks are ordered by label by the caller (checked).
   /// Throws std::invalid_argument when there is no block, labels are not ascending, or there are 65535 or more.
   IndicatorSet(std::vector<IndicatorBlock> blocks, LabelMesh::Label background, const Lattice& working);
@@ -90,6 +92,8 @@ private:
   void FindCandidates(const std::vector<float>& largest);
   /// Appends m to each tile of a layer (constant z) that it can win in.
   void FindTilesOf(MaterialId m, Index tileLayer, const std::vector<float>& largest,
+    std::vector<std::vector<MaterialId>>& tiles) const;
+  void FindAlignedTilesOf(MaterialId m, Index tileLayer, const std::vector<float>& largest,
     std::vector<std::vector<MaterialId>>& tiles) const;
   Index TileOf(const Vec3& x) const;
   /// False when the sample next to x shows that m is not the largest at x.

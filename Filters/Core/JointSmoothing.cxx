@@ -211,7 +211,7 @@ private:
     this->Fields[m] = Field();
     band.Redistance(FinalRedistance);
     band.Widen(material.Mask, BandReach(options));
-    return TightenBand(band, material.Frame, options, Monitor(), material.Distance);
+    return TightenBand(band, material.Frame, options, Monitor(), material.Place());
   }
 
   /// The sample of the working lattice that a sample of a material's grown lattice is.

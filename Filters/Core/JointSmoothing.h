@@ -5,6 +5,7 @@
 
 #include "LevelSet.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ struct MaterialMask
   Lattice Frame;
   const std::uint8_t* Mask = nullptr; ///< 1 inside, 0 outside
   double Radius = 0.7;                ///< voxels, of the final tightening
-  float* Distance = nullptr;          ///< gets the result, as Tighten gives it
+  /// Asked once, by any thread, after the last use of the mask: memory for the result, which is as Tighten gives it.
+  std::function<float*()> Place;
 };
 
 struct JointSmoothingOptions

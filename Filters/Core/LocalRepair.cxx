@@ -109,7 +109,7 @@ LocalRepair::LocalRepair(const IndicatorSet& indicators, SurfaceComplex& complex
   }
 }
 
-bool LocalRepair::Mend(const Fault& fault)
+bool LocalRepair::Mend(const Fault& fault, Placing placing)
 {
   for (const Index v : fault.Vertices)
   {
@@ -132,18 +132,23 @@ bool LocalRepair::Mend(const Fault& fault)
       local.push_back(Index(n));
     }
   }
-  Judgement best;
-  best.Badness = before.Badness;
+  double best = before.Badness;
   Patch mended;
+  Replacement chosen;
   const auto judge = [&](Patch& variant)
   {
-    Judgement judgement = this->Judge(variant, before.Pairs);
-    if (judgement.Badness < best.Badness)
+    const Judgement judgement = this->Judge(variant, before.Pairs);
+    if (judgement.Badness < best)
     {
-      best = std::move(judgement);
-      mended = std::move(variant);
+      Replacement replacement = this->ReplacementBy(patch, variant, judgement.Faces);
+      if (placing == Placing::Particles || this->Complex.Fits(replacement.Core, replacement.Faces))
+      {
+        best = judgement.Badness;
+        mended = std::move(variant);
+        chosen = std::move(replacement);
+      }
     }
-    return best.Badness == 0.0;
+    return best == 0.0;
   };
   for (Patch& variant : this->Variants(patch, local, fault))
   {
@@ -153,7 +158,7 @@ bool LocalRepair::Mend(const Fault& fault)
       break;
     }
   }
-  if (best.Badness > 0.0)
+  if (best > 0.0)
   {
     // Relaxing evens out distances, which is not always what is wanted: single moves are taken as they are.
     for (Patch& variant : this->Moves(patch, local))
@@ -164,7 +169,11 @@ bool LocalRepair::Mend(const Fault& fault)
       }
     }
   }
-  return best.Badness < before.Badness && this->Commit(patch, mended, best.Faces);
+  if (best < before.Badness)
+  {
+    this->Commit(patch, mended, chosen, placing);
+  }
+  return best < before.Badness;
 }
 
 LocalRepair::Patch LocalRepair::PatchAround(const Fault& fault) const
@@ -468,57 +477,76 @@ void LocalRepair::RelaxCore(Patch& patch) const
   Relax(this->Indicators, nullptr, patch.Particles, moving, options);
 }
 
-bool LocalRepair::Commit(const Patch& before, const Patch& after, const std::vector<InterfaceTriangle>& faces)
+LocalRepair::Replacement LocalRepair::ReplacementBy(
+  const Patch& before, const Patch& after, const std::vector<InterfaceTriangle>& faces) const
 {
-  this->Complex.Begin();
-  std::vector<Index> numbers, core;
+  Replacement replacement;
+  Index next = this->Complex.NumberOfVertices();
   for (std::size_t n = 0; n < after.Ids.size(); ++n)
   {
-    numbers.push_back(after.Ids[n] < 0 ? this->Complex.AddVertex(after.Particles[n]) : after.Ids[n]);
+    replacement.Numbers.push_back(after.Ids[n] < 0 ? next++ : after.Ids[n]);
     if (after.Core[n])
     {
-      core.push_back(numbers.back());
+      replacement.Core.push_back(replacement.Numbers.back());
     }
   }
   for (std::size_t n = 0; n < before.Ids.size(); ++n)
   {
     if (before.Core[n])
     {
-      core.push_back(before.Ids[n]); // the deleted ones too
+      replacement.Core.push_back(before.Ids[n]); // the deleted ones too
     }
   }
-  std::sort(core.begin(), core.end());
-  core.erase(std::unique(core.begin(), core.end()), core.end());
-  std::vector<InterfaceTriangle> inserted = faces;
-  for (InterfaceTriangle& face : inserted)
+  std::sort(replacement.Core.begin(), replacement.Core.end());
+  replacement.Core.erase(std::unique(replacement.Core.begin(), replacement.Core.end()), replacement.Core.end());
+  replacement.Faces = faces;
+  for (InterfaceTriangle& face : replacement.Faces)
   {
     for (Index& v : face.Vertices)
     {
-      v = numbers[v];
+      v = replacement.Numbers[v];
     }
   }
-  if (!this->Complex.ReplaceStars(core, inserted))
-  {
-    this->Complex.Rollback();
-    return false;
-  }
-  std::vector<Index> kept;
+  return replacement;
+}
+
+void LocalRepair::Commit(const Patch& before, const Patch& after, const Replacement& replacement, Placing placing)
+{
   for (std::size_t n = 0; n < after.Ids.size(); ++n)
   {
-    this->Complex.SetVertex(numbers[n], after.Particles[n]);
-    kept.push_back(numbers[n]);
     if (after.Ids[n] < 0)
     {
+      this->Complex.AddVertex(after.Particles[n]);
       this->Grid.Insert(after.Particles[n].Position, after.Particles[n].TargetLength);
       this->Deleted.push_back(0);
     }
+    else
+    {
+      this->Complex.SetVertex(after.Ids[n], after.Particles[n]);
+    }
   }
-  this->Complex.Commit();
+  if (placing == Placing::Faces)
+  {
+    this->Complex.ReplaceStars(replacement.Core, replacement.Faces);
+  }
+  std::vector<Index> kept = replacement.Numbers;
   std::sort(kept.begin(), kept.end());
   for (const Index n : before.Ids)
   {
     this->Deleted[n] = !std::binary_search(kept.begin(), kept.end(), n);
   }
-  return true;
+}
+
+std::vector<Particle> LocalRepair::RemainingParticles() const
+{
+  std::vector<Particle> remaining;
+  for (Index v = 0; v < this->Complex.NumberOfVertices(); ++v)
+  {
+    if (!this->Deleted[v])
+    {
+      remaining.push_back(this->Complex.Vertex(v));
+    }
+  }
+  return remaining;
 }
 }

@@ -30,8 +30,16 @@ public:
   /// The complex must be the interface of the Delaunay tetrahedra of its vertices.
   LocalRepair(const IndicatorSet& indicators, SurfaceComplex& complex, double wantedRatio);
 
+  /// How a mended patch gets into the mesh.
+  enum class Placing
+  {
+    Faces,    ///< its faces take the place of the old ones; only patches whose rim stays what it is are mended
+    Particles ///< its particles alone: the complex must be made anew from RemainingParticles() at the end of the pass
+  };
+
   /// True when the fault was mended or made less.
-  bool Mend(const Fault& fault);
+  bool Mend(const Fault& fault, Placing placing = Placing::Faces);
+  std::vector<Particle> RemainingParticles() const;
 
 private:
   struct Patch
@@ -48,6 +56,14 @@ private:
     double Badness = 0.0;
     std::vector<InterfaceTriangle> Faces;
     std::vector<std::array<MaterialId, 2>> Pairs; ///< of materials, ascending
+  };
+
+  /// What a changed patch puts into the mesh.
+  struct Replacement
+  {
+    std::vector<Index> Numbers; ///< of the whole, for the particles of the patch; new ones follow those that are there
+    std::vector<Index> Core;    ///< whose stars are replaced, ascending
+    std::vector<InterfaceTriangle> Faces;
   };
 
   Patch PatchAround(const Fault& fault) const;
@@ -70,8 +86,8 @@ private:
   void AppendJunctions(
     const Patch& patch, const std::vector<Index>& site, const Fault& fault, std::vector<Patch>& variants) const;
   void RelaxCore(Patch& patch) const;
-  /// False, with nothing changed, where the new faces do not fit the rest of the mesh.
-  bool Commit(const Patch& before, const Patch& after, const std::vector<InterfaceTriangle>& faces);
+  Replacement ReplacementBy(const Patch& before, const Patch& after, const std::vector<InterfaceTriangle>& faces) const;
+  void Commit(const Patch& before, const Patch& after, const Replacement& replacement, Placing placing);
 
   const IndicatorSet& Indicators;
   SurfaceComplex& Complex;

@@ -29,28 +29,41 @@ void Judge(const InterfaceMesh& mesh, double wantedRatio, MeshResult& result)
   }
 }
 
-/// Mends what the particles got wrong, until nothing is left or nothing helps.
+/// The interface of the particles as a complex.
+SurfaceComplex Build(const IndicatorSet& indicators, std::vector<Particle> particles, MeshResult& result)
+{
+  InterfaceComplex interface = BuildInterface(indicators, particles);
+  result.Tetrahedra = interface.Tetrahedra.Size();
+  result.EmptySets = interface.Labels.EmptySets;
+  return SurfaceComplex({ std::move(particles), std::move(interface.Faces) });
+}
+
+/// Mends what the particles got wrong, until nothing is left or nothing helps. Nearly all faults are mended in their
+/// place; for those whose change reaches beyond their patch all particles are tetrahedralised once more.
 void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const MeshOptions& options,
   MeshResult& result, const Monitor& monitor)
 {
+  using Placing = LocalRepair::Placing;
+  Placing placing = Placing::Faces;
   std::vector<Fault> faults = FindFaults(complex);
-  if (faults.empty())
-  {
-    return;
-  }
-  LocalRepair repair(indicators, complex, std::min(options.RepairBelow, PoorRatio));
   for (; result.Rounds < options.RepairRounds && !faults.empty(); ++result.Rounds)
   {
+    LocalRepair repair(indicators, complex, std::min(options.RepairBelow, PoorRatio));
     Index mended = 0;
     for (std::size_t n = 0; n < faults.size(); ++n)
     {
       monitor.Step((result.Rounds + double(n) / double(faults.size())) / options.RepairRounds, "Repairing");
-      mended += repair.Mend(faults[n]);
+      mended += repair.Mend(faults[n], placing);
     }
-    if (mended == 0)
+    if (mended == 0 && placing == Placing::Particles)
     {
       return;
     }
+    if (mended == 0 || placing == Placing::Particles)
+    {
+      complex = Build(indicators, repair.RemainingParticles(), result);
+    }
+    placing = mended == 0 ? Placing::Particles : Placing::Faces;
     faults = FindFaults(complex);
   }
 }
@@ -123,11 +136,7 @@ MeshResult MeshInterfaces(
 {
   MeshResult result;
   monitor.Step(0.0, "Tetrahedralising");
-  InterfaceComplex tetrahedra = BuildInterface(indicators, particles);
-  result.Tetrahedra = tetrahedra.Tetrahedra.Size();
-  result.EmptySets = tetrahedra.Labels.EmptySets;
-  SurfaceComplex complex({ std::move(particles), std::move(tetrahedra.Faces) });
-  tetrahedra = InterfaceComplex();
+  SurfaceComplex complex = Build(indicators, std::move(particles), result);
   RepairFaults(indicators, complex, options, result, monitor.Part(0.5, 0.6));
   ImproveWithoutCuts(indicators, complex, options, result, monitor.Part(0.6, 0.9));
   result.Mesh = std::move(complex).Compacted();

@@ -345,11 +345,14 @@ double NarrowBand::Volume() const
         this->Where->VisitPiece(piece,
           [&](const BandLayout::Run* runs, Index count, Index)
           {
+            std::vector<std::int32_t> crossed(static_cast<std::size_t>(frame.Dims[0]));
             for (Index r = 0; r < count; ++r)
             {
+              const float* const row = this->Phi + runs[r].First;
+              FindCrossedCells(row, runs[r].Count, y, z, crossed.data());
               for (Index i = 0; i < runs[r].Count; ++i)
               {
-                pieces[piece] += part(this->Phi + runs[r].First + i);
+                pieces[piece] += crossed[i] ? part(row + i) : row[i] > 0 ? 1.0 : 0.0;
               }
             }
           });

@@ -92,8 +92,8 @@ public:
   /// fit inside and are no smaller, O(x) = max of phi(y) - |x - y| over the y with phi(y) >= radius. Such y are
   /// samples, and points between two samples where the slopes of phi on both sides meet, so that plates two voxels
   /// thick keep theirs. Where O differs from phi by less than the samples' coarseness explains (0.1 for cubic voxels),
-  /// it is phi. phi must be a distance, up to BallReach(radius) from the zero set. More than BallReach(radius) - 0.7
-  /// from the zero set the bound is phi itself: what happens there does not reach the zero set.
+  /// it is phi. phi must be a distance, up to BallReach(radius) from the zero set. More than a
+  /// voxel beyond `radius` from the zero set the bound is phi itself: what happens there does not reach the zero set.
   std::vector<float> Opening(double radius) const;
   static double BallReach(double radius) { return radius + 1.7; }
   /// The same of -phi, turned over: the closing as an upper bound.

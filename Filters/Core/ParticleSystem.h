@@ -11,7 +11,7 @@ namespace LabelMesh
 {
 struct SampleOptions
 {
-  int Sweeps = 40;        ///< relaxation sweeps over the 2-cell particles
+  int Sweeps = 20;        ///< relaxation sweeps over the 2-cell particles
   std::uint32_t Seed = 1; ///< of the random order of the first particles
 };
 

