@@ -23,7 +23,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <ctime>
+#include <thread>
 
 using namespace TestMeshes;
 
@@ -295,6 +299,104 @@ TEST(LabelMesher, AbortStopsTheRunningStage)
   mesher->Modified();
   mesher->Update();
   EXPECT_GT(mesher->GetOutput()->GetNumberOfCells(), 100) << "runs again after an abort";
+}
+
+namespace
+{
+/// Stops a filter at a chosen one of its progress events, and measures how much work lies between two of them.
+class EventCounter
+{
+public:
+  explicit EventCounter(vtkAlgorithm* filter, int last = -1)
+    : Last(last)
+    , Tag(filter->AddObserver(vtkCommand::ProgressEvent, this, &EventCounter::Watch))
+    , Before(std::clock())
+  {
+  }
+  void Watch(vtkObject* caller, unsigned long, void*)
+  {
+    const std::clock_t now = std::clock();
+    this->LongestGap = std::max(this->LongestGap, double(now - this->Before) / CLOCKS_PER_SEC);
+    this->Before = now;
+    if (this->Count++ == this->Last)
+    {
+      vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+    }
+  }
+  int Last;
+  unsigned long Tag;
+  std::clock_t Before;
+  int Count = 0;
+  double LongestGap = 0.0; ///< seconds of all processors, which the load of the machine does not change
+};
+}
+
+TEST(LabelMesher, AbortAtAnyPointLeavesNothingBehind)
+{
+  const auto volume = TwoSpheres(20);
+  vtkNew<vtkLabelMesher> fresh;
+  fresh->SetInputData(volume);
+  EventCounter all(fresh);
+  fresh->Update();
+  const std::string expected = BytesOf(fresh->GetOutput());
+  ASSERT_GT(all.Count, 60);
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(volume);
+  for (int last = 0; last + 2 < all.Count; last += 3)
+  {
+    EventCounter stopper(mesher, last);
+    mesher->SetAbortExecute(0);
+    mesher->Modified();
+    mesher->AddLabel(1); // so that all stages run anew
+    mesher->Update();
+    for (int port = 0; port < 4; ++port)
+    {
+      if (auto* output = vtkPolyData::SafeDownCast(mesher->GetOutputDataObject(port)))
+      {
+        EXPECT_EQ(output->GetNumberOfPoints(), 0) << "port " << port << ", event " << last;
+      }
+    }
+    EXPECT_EQ(mesher->GetSurfaces()->GetNumberOfPartitionedDataSets(), 0u) << "event " << last;
+    mesher->RemoveObserver(stopper.Tag);
+    mesher->ClearLabels();
+    mesher->SetAbortExecute(0);
+    mesher->Modified();
+    mesher->Update();
+    EXPECT_EQ(BytesOf(mesher->GetOutput()), expected) << "after an abort at event " << last;
+  }
+}
+
+TEST(LabelMesher, HearsOfAnAbortInTime)
+{
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(TwoSpheres(160));
+  EventCounter counter(mesher);
+  mesher->Update();
+  EXPECT_LT(counter.LongestGap, 1.0);
+}
+
+TEST(LabelMesher, TwoAtOnceInOneProcess)
+{
+  const auto meshOf = [](vtkImageData* volume)
+  {
+    vtkNew<vtkLabelMesher> mesher;
+    mesher->SetInputData(volume);
+    mesher->Update();
+    return BytesOf(mesher->GetOutput());
+  };
+  const std::array<vtkSmartPointer<vtkImageData>, 2> volumes = { TwoSpheres(24), TwoSpheres(31) };
+  std::array<std::string, 2> alone, together;
+  for (std::size_t n = 0; n < 2; ++n)
+  {
+    alone[n] = meshOf(volumes[n]);
+  }
+  for (int round = 0; round < 5; ++round)
+  {
+    std::thread other([&]() { together[0] = meshOf(volumes[0]); });
+    together[1] = meshOf(volumes[1]);
+    other.join();
+    EXPECT_EQ(together, alone);
+  }
 }
 
 TEST(LabelMesher, ProgressNamesTheStages)
