@@ -4,8 +4,8 @@
  * @brief   From a label volume to a watertight mesh of all its materials, in one step.
  *
  * The whole chain in one filter: vtkLabelSplit, vtkTighten, vtkIndicatorReconstruct, vtkSizingField,
- * vtkParticleSampleCells, vtkDelaunayLabelMesh. Stages keep their outputs, so that a change runs only the stages that it
- * concerns: a new Epsilon does not tighten again. The first three share one output, the indicators, which are by far
+ * vtkParticleSampleCells, vtkDelaunayLabelMesh. Stages keep their outputs, so that a change runs only the stages that
+ * it concerns: a new Epsilon does not tighten again. The first three share one output, the indicators, which are by far
  * the largest data: a change of any of their properties runs all three.
  *
  * Input port 0 (vtkImageData): labels, SetInputArrayToProcess(0, ...), by default the active point or cell scalars; see
@@ -68,6 +68,12 @@ public:
   int GetPadding() const;
   void SetResamplingFactor(double factor);
   double GetResamplingFactor() const;
+  ///@}
+
+  ///@{
+  /// vtkLabelSplit: GiB that the work may take by estimate (0: no limit); larger volumes are an error at once.
+  void SetMemoryLimit(double gibibytes);
+  double GetMemoryLimit() const;
   ///@}
 
   ///@{

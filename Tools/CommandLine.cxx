@@ -154,6 +154,7 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--min-length", number(line.MinimumLength, 0.0) },
     { "--max-length", number(line.MaximumLength, 0.0) },
     { "--gradation", number(line.Gradation, 1e-3) },
+    { "--memory-limit", number(line.MemoryLimit, 0.0) },
     { "--material", [&line](const std::string&, const std::string& value) { ParseMaterial(value, line.Materials); } },
     { "--labels",
       [&line](const std::string& option, const std::string& value)
@@ -221,7 +222,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
       "there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
   }
   for (const char* option : { "--particles", "--smoothing", "--radius", "--material", "--epsilon", "--min-length",
-         "--max-length", "--gradation" })
+         "--max-length", "--gradation", "--memory-limit" })
   {
     if (line.Grid && given.count(option))
     {
@@ -315,6 +316,7 @@ Particle method (radii in voxels, lengths in world units):
   --epsilon E           edge length over feature size (default 0.7)
   --min-length L, --max-length L  bounds of the edge length
   --gradation G         how fast edge lengths may change (default 0.4)
+  --memory-limit GIB    refuse volumes that would take more memory, by estimate (default 0: no limit)
 
 Both methods:
   --triangles N         about how many triangles to make

@@ -256,6 +256,7 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
   set(line.MinimumLength, &vtkLabelMesher::SetMinimumLength);
   set(line.MaximumLength, &vtkLabelMesher::SetMaximumLength);
   set(line.Gradation, &vtkLabelMesher::SetGradation);
+  set(line.MemoryLimit, &vtkLabelMesher::SetMemoryLimit);
   mesher->SetTargetTriangles(line.Triangles);
   for (const auto& [label, material] : line.Materials)
   {

@@ -4,6 +4,7 @@
 import gzip
 import json
 import os
+import resource
 import shutil
 import signal
 import struct
@@ -287,6 +288,25 @@ class TestInput(CommandLineTest):
         low, high = meshes[0].min(axis=0), meshes[0].max(axis=0)
         self.assertTrue(np.all(low < centre) and np.all(centre < high))
 
+    def test_full_disk(self):
+        """A file that cannot be written whole leaves the old one as it was, and nothing beside it."""
+        self.mesh(self.spheres, "-o", "m.vtp", "--surfaces", "s.vtpc", "--report", "r.json", "--quiet")
+        old = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
+        whole = (self.folder / "m.vtp").stat().st_size
+
+        def limit(size):
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # writing then fails as it does on a full disk
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+        for size in (0, 100, whole // 3, whole - 1):
+            result = subprocess.run([LABELMESH, self.spheres, "-o", "m.vtp", "--surfaces", "s.vtpc", "--report",
+                                     "r.json", "--epsilon", "0.5", "--quiet"], cwd=self.folder, capture_output=True,
+                                    text=True, timeout=120, preexec_fn=lambda: limit(size))
+            self.assertEqual(result.returncode, 1, size)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+            self.assertIn("cannot write", result.stderr)
+            self.assertEqual({path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}, old)
+
     def test_nrrd_of_every_kind(self):
         """Each type, both ends first, packed, raw and as text, attached and in a file of its own: the same mesh."""
         meshes = set()
@@ -399,6 +419,7 @@ class TestRefusals(CommandLineTest):
         make_volumes.write_mha(self.folder / "blank.mha", np.zeros((16, 16, 16), np.uint8))
         self.refuse("nothing to mesh", "blank.mha", *mesh)
         self.refuse("nothing to mesh", self.spheres, *mesh, "--labels", "0")
+        self.refuse("the limit is 0.01 GiB", self.spheres, *mesh, "--memory-limit", "0.01", "--quiet")
         image = vtkImageData()
         writer = vtkXMLImageDataWriter()
         writer.SetFileName(str(self.folder / "none.vti"))
