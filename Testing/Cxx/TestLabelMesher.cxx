@@ -270,6 +270,99 @@ TEST(LabelMesher, MirroredAndOriented)
   }
 }
 
+namespace
+{
+/// Frames of one grid: turned, mirrored, exchanged axes, moved.
+std::vector<GridFrame> FramesOf(const std::array<int, 6>& extent, const Vec3& spacing)
+{
+  Mat3 turned;
+  turned << 0.36, -0.48, 0.8, 0.8, 0.6, 0.0, -0.48, 0.64, 0.6;
+  Mat3 mirrored = turned;
+  mirrored.col(1) *= -1;
+  Mat3 exchanged;
+  exchanged << 0, 1, 0, 1, 0, 0, 0, 0, 1; // a mirror, too
+  Mat3 inverted = -Mat3::Identity();
+  std::vector<GridFrame> frames;
+  for (const Mat3& direction : { turned, mirrored, exchanged, inverted })
+  {
+    frames.emplace_back(extent, Vec3(12, -345, 6.5), spacing, direction);
+  }
+  return frames;
+}
+
+/// Expects the mesh of `plain`, whose frame has neither origin nor direction, moved by the isometry of `frame`.
+void ExpectMoved(vtkPolyData* plain, vtkPolyData* moved, const GridFrame& frame)
+{
+  ASSERT_EQ(moved->GetNumberOfPoints(), plain->GetNumberOfPoints());
+  double farthest = 0;
+  for (vtkIdType n = 0; n < plain->GetNumberOfPoints(); ++n)
+  {
+    const Vec3 expected = frame.Direction() * Vec3(plain->GetPoint(n)) + frame.Origin();
+    farthest = std::max(farthest, (Vec3(moved->GetPoint(n)) - expected).norm());
+  }
+  EXPECT_LT(farthest, 1e-9) << "rounding of coordinates below a thousand";
+  const InterfaceData a = ReadInterface(plain), b = ReadInterface(moved);
+  const bool mirror = frame.Direction().determinant() < 0;
+  ASSERT_EQ(a.Triangles.size(), b.Triangles.size());
+  for (std::size_t t = 0; t < a.Triangles.size(); ++t)
+  {
+    std::array<Index, 3> before, after;
+    std::copy_n(a.Triangles[t].Vertices.begin(), 3, before.begin());
+    std::copy_n(b.Triangles[t].Vertices.begin(), 3, after.begin());
+    // The first vertex may be another, the way around is that of the frame.
+    if (mirror)
+    {
+      std::reverse(after.begin(), after.end());
+    }
+    std::rotate(before.begin(), std::min_element(before.begin(), before.end()), before.end());
+    std::rotate(after.begin(), std::min_element(after.begin(), after.end()), after.end());
+    ASSERT_EQ(before, after) << "triangle " << t;
+    ASSERT_EQ(a.Triangles[t].Materials, b.Triangles[t].Materials) << "triangle " << t;
+  }
+}
+}
+
+TEST(LabelMesher, FramesMoveTheMeshAndNothingElse)
+{
+  for (const Vec3& spacing : { Vec3(1, 1, 1), Vec3(0.3, 1, 3), Vec3(1, 10, 1) })
+  {
+    for (const int first : { 0, -7 })
+    {
+      // Balls of voxels, however long the voxels are; one reaches the border of the volume.
+      const std::array<int, 6> extent = { first, first + 23, first, first + 19, 0, 21 };
+      const auto volume = LabelVolume(extent,
+        [first](int i, int j, int k)
+        {
+          const Vec3 x(i - first, j - first, k);
+          return (x - Vec3(9, 9, 9)).norm() < 8 ? 1 : (x - Vec3(17, 10, 12)).norm() < 8 ? 2 : 0;
+        });
+      SetFrame(volume, GridFrame(extent, Vec3::Zero(), spacing, Mat3::Identity()));
+      vtkNew<vtkLabelMesher> plain;
+      plain->SetInputData(volume);
+      plain->Update();
+      ASSERT_GT(plain->GetOutput()->GetNumberOfCells(), 500);
+      const MeshCheck check = CheckOf(plain->GetOutput());
+      for (const GridFrame& frame : FramesOf(extent, spacing))
+      {
+        const auto turned = vtkSmartPointer<vtkImageData>::New();
+        turned->DeepCopy(volume);
+        SetFrame(turned, frame);
+        vtkNew<vtkLabelMesher> mesher;
+        mesher->SetInputData(turned);
+        mesher->Update();
+        ExpectMoved(plain->GetOutput(), mesher->GetOutput(), frame);
+        const MeshCheck moved = CheckOf(mesher->GetOutput());
+        for (std::size_t m = 1; m < moved.Materials.size(); ++m)
+        {
+          EXPECT_TRUE(moved.Materials[m].Sound());
+          EXPECT_GT(moved.Materials[m].Volume, 0) << "outward";
+          EXPECT_NEAR(moved.Materials[m].Volume, check.Materials[m].Volume, 1e-6 * check.Materials[m].Volume);
+        }
+      }
+    }
+  }
+}
+
 TEST(LabelMesher, ErrorsAreItsOwnAndSaidOnce)
 {
   vtkNew<vtkLabelMesher> mesher;
