@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -102,6 +103,35 @@ void RequireThreeDimensions(const GridFrame& frame)
       " x " + std::to_string(dims[2]) + " samples; expected a volume with two or more along each axis.");
   }
 }
+
+/// What no scan has and broken headers have: with such lengths the work does not end, or numbers have no room.
+void RequireMeasurableVoxels(const GridFrame& frame)
+{
+  constexpr double longestVoxel = 100.0; // over its width
+  constexpr double smallest = 1e-30, largest = 1e30;
+  constexpr double farthest = 1e10; // voxels: the digits left to a vertex are a millionth of a voxel
+  const auto text = [](double number)
+  {
+    std::ostringstream stream;
+    stream << number;
+    return stream.str();
+  };
+  const Vec3 spacing = frame.Spacing();
+  const double least = spacing.minCoeff(), most = spacing.maxCoeff();
+  if (least < smallest || most > largest || most > longestVoxel * least)
+  {
+    throw std::invalid_argument("The label image has the spacing " + text(spacing[0]) + " x " + text(spacing[1]) +
+      " x " + text(spacing[2]) + "; expected voxels at most " + text(longestVoxel) +
+      " times as long as wide, with sides between " + text(smallest) + " and " + text(largest) +
+      ". Correct the spacing, or resample the volume.");
+  }
+  const double away = frame.Origin().cwiseAbs().maxCoeff();
+  if (away > farthest * least)
+  {
+    throw std::invalid_argument("The label image has its origin " + text(away) + " away from zero, with voxels of " +
+      text(least) + "; expected at most " + text(farthest) + " voxels. Move the origin.");
+  }
+}
 }
 
 GridFrame FrameOfCells(const GridFrame& points)
@@ -133,6 +163,7 @@ LabelImage ReadLabelImage(vtkImageData* image, vtkDataArray* array, bool cellDat
   LabelImage result;
   const GridFrame points = FrameOf(image);
   RequireThreeDimensions(points);
+  RequireMeasurableVoxels(points);
   result.Frame = cellData ? FrameOfCells(points) : points;
   if (result.Frame.Samples().Size() != array->GetNumberOfTuples())
   {

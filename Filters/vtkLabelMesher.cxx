@@ -403,6 +403,16 @@ double vtkLabelMesher::GetResamplingFactor() const
   return this->Stages->Split->GetResamplingFactor();
 }
 
+void vtkLabelMesher::SetMemoryLimit(double gibibytes)
+{
+  this->Stages->Split->SetMemoryLimit(gibibytes);
+}
+
+double vtkLabelMesher::GetMemoryLimit() const
+{
+  return this->Stages->Split->GetMemoryLimit();
+}
+
 void vtkLabelMesher::SetOpeningRadius(double radius)
 {
   this->Stages->Split->SetOpeningRadius(radius);

@@ -79,6 +79,12 @@ public:
   ///@}
 
   ///@{
+  /// vtkLabelSplit: GiB that the work may take by estimate (0: no limit); larger volumes are an error at once.
+  void SetMemoryLimit(double gibibytes);
+  double GetMemoryLimit() const;
+  ///@}
+
+  ///@{
   /// vtkLabelSplit: radii of binary opening and closing, voxels (0), for all and for single materials.
   void SetOpeningRadius(double radius);
   double GetOpeningRadius() const;

@@ -6,6 +6,7 @@
 #include "IndicatorCollection.h"
 #include "LabelImage.h"
 #include "LabelMeshNames.h"
+#include "MemoryEstimate.h"
 #include "WorkingImage.h"
 
 #include <vtkAbstractArray.h>
@@ -472,6 +473,11 @@ int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVect
       vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
       std::vector<Label> missing;
       LabelImage image = LabelsToSplit(this, input, array, association, this->Labels, missing);
+      if (this->MemoryLimit > 0)
+      {
+        RequireMemory(
+          EstimateMemory(image, this->BackgroundLabel, this->Padding, this->ResamplingFactor), this->MemoryLimit);
+      }
       monitor.Step(0.1, "Resampling");
       Resample(image, this->ResamplingFactor);
       header.Source = image.Frame;
@@ -508,6 +514,7 @@ void vtkLabelSplit::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Padding: " << this->Padding << "\n";
   os << indent << "Border: " << (this->Border == Flat ? "Flat" : "Closed") << "\n";
   os << indent << "ResamplingFactor: " << this->ResamplingFactor << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "OpeningRadius: " << this->OpeningRadius << "\n";
   os << indent << "ClosingRadius: " << this->ClosingRadius << "\n";
   const auto print = [&](const char* what, const auto& map)

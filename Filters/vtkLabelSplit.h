@@ -98,6 +98,13 @@ public:
   ///@}
 
   ///@{
+  /// GiB that the whole chain may take by estimate (see Filters/MemoryEstimate.h): larger volumes are an error, before
+  /// any work is done. 0: no limit. Default 0.
+  vtkSetClampMacro(MemoryLimit, double, 0.0, 1e9);
+  vtkGetMacro(MemoryLimit, double);
+  ///@}
+
+  ///@{
   /// Radius of the opening of every material, voxels of the working grid; 0: none. Default 0.
   vtkSetMacro(OpeningRadius, double);
   vtkGetMacro(OpeningRadius, double);
@@ -150,6 +157,7 @@ protected:
   int Padding = 6;
   int Border = Closed;
   double ResamplingFactor = 1.0;
+  double MemoryLimit = 0.0;
   double OpeningRadius = 0.0;
   double ClosingRadius = 0.0;
   std::map<vtkIdType, double> MaterialOpeningRadii;

@@ -164,6 +164,7 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--max-length", number(line.MaximumLength, 0.0) },
     { "--deviation", number(line.MaximumDeviation, 0) },
     { "--gradation", number(line.Gradation, 1e-3) },
+    { "--memory-limit", number(line.MemoryLimit, 0.0) },
     { "--material", [&line](const std::string&, const std::string& value) { ParseMaterial(value, line.Materials); } },
     { "--labels",
       [&line](const std::string& option, const std::string& value)
@@ -231,7 +232,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
       "there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
   }
   for (const char* option : { "--particles", "--border", "--smoothing", "--radius", "--material", "--epsilon",
-         "--min-length", "--max-length", "--deviation", "--gradation" })
+         "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit" })
   {
     if (line.Grid && given.count(option))
     {
@@ -298,7 +299,8 @@ std::string HelpText()
   return R"(usage: labelmesh INPUT [-o mesh.vtp] [--surfaces s.vtpc] [--particles p.vtp] [--report r.json] [options]
 
 Meshes all material interfaces of a label volume: watertight, conforming, adaptive.
-INPUT: .mha .mhd .nrrd .nii .nii.gz .vti; one integer label per voxel.
+INPUT: .mha .mhd .nrrd .nii .nii.gz .vti; one integer label per voxel. Names and colors of 3D Slicer's .seg.nrrd are
+kept.
 
 Files to write (each only when asked for, and only whole):
   -o FILE.vtp           triangles, each once, with the labels of its two sides (BoundaryLabels)
@@ -327,6 +329,7 @@ Particle method (radii in voxels, lengths in world units):
   --min-length L, --max-length L  bounds of the edge length
   --deviation D         voxels that edges may stay beside curved surfaces (default 0.2; 0: no bound)
   --gradation G         how fast edge lengths may change (default 0.4)
+  --memory-limit GIB    refuse volumes that would take more memory, by estimate (default 0: no limit)
 
 Both methods:
   --triangles N         about how many triangles to make

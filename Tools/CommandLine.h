@@ -32,7 +32,8 @@ struct CommandLine
   bool Tightening = false; ///< --smoothing tighten
   std::optional<double> Radius, Epsilon, MinimumLength, MaximumLength, MaximumDeviation, Gradation;
   long long Triangles = 0;
-  int Threads = 0; ///< 0: as many as there are
+  std::optional<double> MemoryLimit; ///< GiB
+  int Threads = 0;                   ///< 0: as many as there are
   bool Quiet = false;
 };
 

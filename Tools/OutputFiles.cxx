@@ -3,11 +3,16 @@
 
 #include "Messages.h"
 
+#include <vtkInformation.h>
 #include <vtkNew.h>
+#include <vtkPartitionedDataSet.h>
 #include <vtkPartitionedDataSetCollection.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkXMLPartitionedDataSetCollectionWriter.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLWriterBase.h>
 
 #include <unistd.h>
 
@@ -37,20 +42,70 @@ fs::path FolderOf(const std::string& file)
 /// Writers are set to binary data within the elements: VTK 9.1 and 9.2 cannot read appended data back with the Expat
 /// that Debian 12 has since its security updates. Zlib at its fastest: the default level takes almost three times as
 /// long for 3 % smaller meshes, and fewer programs than VTK know its other compressors.
-template <typename Writer>
-void RunWriter(Writer* writer, const std::string& file, const std::string& path)
+void SetFormat(vtkXMLWriterBase* writer)
 {
-  Messages messages(writer);
   writer->SetDataModeToBinary();
   writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);
-  writer->SetFileName(path.c_str());
+}
+
+/// What a .vtp file holds. VTK's writer crashes when it meets a full disk, so it writes into memory.
+std::string BytesOf(vtkPolyData* mesh, const std::string& file)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  SetFormat(writer);
+  Messages messages(writer);
+  writer->SetInputData(mesh);
+  writer->WriteToOutputStringOn();
   const int written = writer->Write();
-  std::error_code ignored;
-  if (!written || writer->GetErrorCode() != 0 || !messages.FirstError().empty() || fs::file_size(path, ignored) == 0)
+  std::string bytes = writer->GetOutputString();
+  if (!written || writer->GetErrorCode() != 0 || !messages.FirstError().empty() || bytes.empty())
   {
     Fail("cannot write '" + file + "'" + (messages.FirstError().empty() ? "" : ": " + messages.FirstError()));
   }
+  return bytes;
+}
+
+/// Writes a file whole, or fails; `file` is what the user calls it.
+void WriteBytes(const fs::path& path, const std::string& bytes, const std::string& file)
+{
+  std::ofstream stream(path, std::ios::binary);
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (!stream)
+  {
+    Fail("cannot write '" + file + "': " + std::strerror(errno));
+  }
+}
+
+/// A block's file as the collection's writer calls it, in a folder with the collection's name.
+fs::path BlockFile(const fs::path& folder, unsigned block)
+{
+  return folder / (folder.filename().string() + "_" + std::to_string(block) + "_0.vtp");
+}
+
+/// The collection with a point in the place of each mesh.
+vtkSmartPointer<vtkPartitionedDataSetCollection> Placeholders(vtkPartitionedDataSetCollection* surfaces)
+{
+  auto places = vtkSmartPointer<vtkPartitionedDataSetCollection>::New();
+  places->ShallowCopy(surfaces);
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0, 0, 0);
+  for (unsigned block = 0; block < places->GetNumberOfPartitionedDataSets(); ++block)
+  {
+    vtkNew<vtkPolyData> place;
+    place->SetPoints(points);
+    vtkNew<vtkPartitionedDataSet> partitions;
+    partitions->SetPartition(0, place);
+    vtkNew<vtkInformation> names;
+    if (surfaces->HasMetaData(block))
+    {
+      names->Copy(surfaces->GetMetaData(block), 1);
+    }
+    places->SetPartitionedDataSet(block, partitions);
+    places->GetMetaData(block)->Copy(names, 1);
+  }
+  return places;
 }
 
 void Move(const fs::path& from, const fs::path& to, const std::string& file)
@@ -144,27 +199,48 @@ std::string OutputFiles::StagedPath(const std::string& file)
 
 void OutputFiles::WriteMesh(const std::string& file, vtkPolyData* mesh)
 {
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(mesh);
-  RunWriter(writer.Get(), file, this->StagedPath(file));
+  WriteBytes(this->StagedPath(file), BytesOf(mesh, file), file);
 }
 
+/// The blocks are written first, by ourselves (see BytesOf). Then the collection's writer gets placeholders, where it
+/// is known that there is room for them, and the blocks take their places.
 void OutputFiles::WriteSurfaces(const std::string& file, vtkPartitionedDataSetCollection* surfaces)
 {
+  const std::string path = this->StagedPath(file);
+  const fs::path folder = fs::path(path).parent_path() / fs::path(path).stem();
+  const fs::path written = fs::path(path).parent_path() / ".blocks" / folder.filename();
+  fs::create_directories(written);
+  const unsigned blocks = surfaces->GetNumberOfPartitionedDataSets();
+  for (unsigned block = 0; block < blocks; ++block)
+  {
+    WriteBytes(
+      BlockFile(written, block), BytesOf(vtkPolyData::SafeDownCast(surfaces->GetPartition(block, 0)), file), file);
+  }
+  const fs::path room = written / "room";
+  WriteBytes(room, std::string((1 << 16) + (std::size_t(blocks) << 13), ' '), file);
+  fs::remove(room);
   vtkNew<vtkXMLPartitionedDataSetCollectionWriter> writer;
-  writer->SetInputDataObject(surfaces);
-  RunWriter(writer.Get(), file, this->StagedPath(file));
+  SetFormat(writer);
+  Messages messages(writer);
+  writer->SetInputDataObject(Placeholders(surfaces));
+  writer->SetFileName(path.c_str());
+  if (!writer->Write() || !messages.FirstError().empty())
+  {
+    Fail("cannot write '" + file + "'" + (messages.FirstError().empty() ? "" : ": " + messages.FirstError()));
+  }
+  for (unsigned block = 0; block < blocks; ++block)
+  {
+    if (!fs::exists(BlockFile(folder, block)))
+    {
+      throw std::logic_error("the writer of collections has other names for its blocks");
+    }
+    Move(BlockFile(written, block), BlockFile(folder, block), file);
+  }
 }
 
 void OutputFiles::WriteText(const std::string& file, const std::string& text)
 {
-  std::ofstream stream(this->StagedPath(file), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-  {
-    Fail("cannot write '" + file + "': " + std::strerror(errno));
-  }
+  WriteBytes(this->StagedPath(file), text, file);
 }
 
 void OutputFiles::Commit()

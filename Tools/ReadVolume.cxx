@@ -11,7 +11,6 @@
 #include <vtkMetaImageReader.h>
 #include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
-#include <vtkNrrdReader.h>
 #include <vtkPointData.h>
 #include <vtkXMLImageDataReader.h>
 
@@ -143,28 +142,6 @@ void OrientMetaImage(const std::string& file, vtkImageData* image)
   }
 }
 
-void OrientNrrd(const std::string& file, vtkImageData* image)
-{
-  const std::string directions = HeaderValue(file, "space directions", ":");
-  if (directions.empty())
-  {
-    return;
-  }
-  SetAxes(directions, "space directions", image);
-  const std::vector<double> axes = NumbersIn(directions);
-  double spacing[3];
-  for (int a = 0; a < 3; ++a)
-  {
-    spacing[a] = std::hypot(axes[3 * a], axes[3 * a + 1], axes[3 * a + 2]);
-  }
-  image->SetSpacing(spacing);
-  const std::vector<double> origin = NumbersIn(HeaderValue(file, "space origin", ":"));
-  if (origin.size() == 3)
-  {
-    image->SetOrigin(origin.data());
-  }
-}
-
 /// World = M * (origin + spacing * index), M without scale.
 void OrientNifti(vtkNIFTIImageReader* reader, vtkImageData* image)
 {
@@ -245,10 +222,6 @@ vtkSmartPointer<vtkAlgorithm> ReaderOf(const std::string& file, const std::strin
   {
     reader = vtkSmartPointer<vtkMetaImageReader>::New();
   }
-  else if (suffix == ".nrrd")
-  {
-    reader = vtkSmartPointer<vtkNrrdReader>::New();
-  }
   else if (suffix == ".nii" || suffix == ".nii.gz")
   {
     reader = vtkSmartPointer<vtkNIFTIImageReader>::New();
@@ -265,80 +238,55 @@ vtkSmartPointer<vtkAlgorithm> ReaderOf(const std::string& file, const std::strin
   return reader;
 }
 
-/// Bytes of one sample of a NRRD type; 0 for types that are not known here.
-std::size_t NrrdSampleSize(const std::string& type)
+/// Number of points of an extent that is written as six numbers; -1 when it is none.
+double PointsIn(const std::string& text, const std::string& key, std::size_t from = 0)
 {
-  const std::size_t first = type.find_first_not_of(' ');
-  const std::string name = first == std::string::npos ? "" : OneLine(type.substr(first));
-  const std::pair<std::size_t, std::vector<const char*>> sizes[] = {
-    { 1, { "char", "signed char", "int8", "int8_t", "uchar", "unsigned char", "uint8", "uint8_t" } },
-    { 2,
-      { "short", "short int", "signed short", "signed short int", "int16", "int16_t", "ushort", "unsigned short",
-        "unsigned short int", "uint16", "uint16_t" } },
-    { 4, { "int", "signed int", "int32", "int32_t", "uint", "unsigned int", "uint32", "uint32_t", "float" } },
-    { 8,
-      { "longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t",
-        "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t", "double" } }
-  };
-  for (const auto& size : sizes)
+  const std::size_t at = text.find(key + "=\"", from);
+  if (at == std::string::npos)
   {
-    if (std::find(size.second.begin(), size.second.end(), name) != size.second.end())
-    {
-      return size.first;
-    }
+    return -1;
   }
-  return 0;
+  const std::size_t begin = at + key.size() + 2;
+  const std::vector<double> numbers =
+    NumbersIn(text.substr(begin, std::min<std::size_t>(text.find('"', begin) - begin, 200)));
+  double points = numbers.size() == 6 ? 1 : -1;
+  for (std::size_t a = 0; a < 3 && numbers.size() == 6; ++a)
+  {
+    points *= std::max(numbers[2 * a + 1] - numbers[2 * a] + 1, 0.0);
+  }
+  return points;
 }
 
-/// Bytes behind the header of a NRRD file, which ends with an empty line.
-std::uintmax_t NrrdDataSize(const std::string& file)
+/// vtkXMLImageDataReader ends the program when there is not the memory that a broken extent asks for.
+void RequireSaneVti(const std::string& file)
 {
   std::ifstream stream(file, std::ios::binary);
-  std::string line;
-  while (std::getline(stream, line) && !line.empty() && line != "\r")
+  std::string text(std::min<std::uintmax_t>(fs::file_size(file), 1 << 20), '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  constexpr double densest = 1e4; // points per byte: more than any compressor of VTK packs
+  const double whole = PointsIn(text, "WholeExtent");
+  double pieces = 0;
+  for (std::size_t at = 0; (at = text.find("<Piece", at)) != std::string::npos; ++at)
   {
+    pieces += std::max(PointsIn(text, " Extent", at), 0.0);
   }
-  const auto begin = stream.tellg();
-  return begin < 0 ? 0 : fs::file_size(file) - static_cast<std::uintmax_t>(begin);
-}
-
-/// vtkNrrdReader does not notice raw data that end early, and never comes back from a gzip stream that does. The last
-/// four bytes of such a stream hold the length of what was packed, which the header gives too.
-void RequireWholeNrrd(const std::string& file)
-{
-  const std::string encoding = OneLine(HeaderValue(file, "encoding", ":"));
-  const bool detached = !HeaderValue(file, "data file", ":").empty() || !HeaderValue(file, "datafile", ":").empty();
-  std::size_t expected = NrrdSampleSize(HeaderValue(file, "type", ":"));
-  for (const double size : NumbersIn(HeaderValue(file, "sizes", ":")))
+  // Pieces share the points of their faces, at most all eight the same one.
+  if (whole > densest * static_cast<double>(fs::file_size(file)) || pieces > 8 * whole)
   {
-    expected *= static_cast<std::size_t>(std::max(size, 0.0));
-  }
-  if (detached || expected == 0)
-  {
-    return;
-  }
-  bool whole = encoding != "raw" || NrrdDataSize(file) >= expected;
-  if (encoding == "gzip" || encoding == "gz")
-  {
-    std::array<unsigned char, 4> tail{};
-    std::ifstream stream(file, std::ios::binary);
-    stream.seekg(-4, std::ios::end);
-    stream.read(reinterpret_cast<char*>(tail.data()), 4);
-    const std::uint32_t packed = tail[0] | tail[1] << 8 | tail[2] << 16 | static_cast<std::uint32_t>(tail[3]) << 24;
-    whole = stream && packed == static_cast<std::uint32_t>(expected);
-  }
-  if (!whole)
-  {
-    Fail("it is truncated: its data end too early");
+    Fail("it is broken or truncated: its extents ask for more points than it can hold");
   }
 }
 
-vtkSmartPointer<vtkImageData> Read(const std::string& file)
+vtkSmartPointer<vtkImageData> Read(const std::string& file, std::map<long long, LabelStyle>& styles)
 {
   const std::string suffix = SuffixOf(file);
   if (suffix == ".nrrd")
   {
-    RequireWholeNrrd(file);
+    return ReadNrrd(file, styles);
+  }
+  if (suffix == ".vti")
+  {
+    RequireSaneVti(file);
   }
   const StreamCapture capture;
   const vtkSmartPointer<vtkAlgorithm> reader = ReaderOf(file, suffix);
@@ -361,10 +309,6 @@ vtkSmartPointer<vtkImageData> Read(const std::string& file)
   {
     OrientMetaImage(file, oriented);
   }
-  else if (suffix == ".nrrd")
-  {
-    OrientNrrd(file, oriented);
-  }
   else if (auto* nifti = vtkNIFTIImageReader::SafeDownCast(reader))
   {
     OrientNifti(nifti, oriented);
@@ -373,7 +317,7 @@ vtkSmartPointer<vtkImageData> Read(const std::string& file)
 }
 }
 
-vtkSmartPointer<vtkImageData> ReadVolume(const std::string& file)
+vtkSmartPointer<vtkImageData> ReadVolume(const std::string& file, std::map<long long, LabelStyle>& styles)
 {
   std::error_code ignored;
   if (!fs::exists(file, ignored))
@@ -386,7 +330,7 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& file)
   }
   try
   {
-    return Read(file);
+    return Read(file, styles);
   }
   catch (const std::exception& problem)
   {

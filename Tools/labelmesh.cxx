@@ -31,6 +31,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -233,8 +234,16 @@ private:
   std::string Stage;
 };
 
-void Apply(const CommandLine& line, vtkLabelMesher* mesher)
+void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& styles, vtkLabelMesher* mesher)
 {
+  for (const auto& [label, style] : styles)
+  {
+    mesher->SetMaterialName(label, style.Name.c_str());
+    if (style.Color)
+    {
+      mesher->SetMaterialColor(label, (*style.Color)[0], (*style.Color)[1], (*style.Color)[2]);
+    }
+  }
   const auto set = [mesher](const std::optional<double>& value, void (vtkLabelMesher::*setter)(double))
   {
     if (value)
@@ -250,6 +259,7 @@ void Apply(const CommandLine& line, vtkLabelMesher* mesher)
   set(line.MaximumLength, &vtkLabelMesher::SetMaximumLength);
   set(line.MaximumDeviation, &vtkLabelMesher::SetMaximumDeviation);
   set(line.Gradation, &vtkLabelMesher::SetGradation);
+  set(line.MemoryLimit, &vtkLabelMesher::SetMemoryLimit);
   mesher->SetTargetTriangles(line.Triangles);
   for (const auto& [label, material] : line.Materials)
   {
@@ -353,7 +363,8 @@ void MeshVolume(const CommandLine& line)
   }
   ReportInput report;
   report.Threads = UseThreads(line.Threads);
-  const vtkSmartPointer<vtkImageData> volume = ReadVolume(line.Input);
+  std::map<long long, LabelStyle> styles; // --material comes before them
+  const vtkSmartPointer<vtkImageData> volume = ReadVolume(line.Input, styles);
   const LabelArray labels = FindLabels(volume);
   if (labels.Array && !labels.Array->GetName())
   {
@@ -382,7 +393,7 @@ void MeshVolume(const CommandLine& line)
   }
   else
   {
-    Apply(line, mesher);
+    Apply(line, styles, mesher);
     Run(mesher.Get(), line, volume, labels);
     for (int s = 0; s < mesher->GetNumberOfStages(); ++s)
     {

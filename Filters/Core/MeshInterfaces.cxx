@@ -30,9 +30,10 @@ void Judge(const InterfaceMesh& mesh, double wantedRatio, MeshResult& result)
 }
 
 /// The interface of the particles as a complex.
-SurfaceComplex Build(const IndicatorSet& indicators, std::vector<Particle> particles, MeshResult& result)
+SurfaceComplex Build(
+  const IndicatorSet& indicators, std::vector<Particle> particles, MeshResult& result, const Monitor& monitor)
 {
-  InterfaceComplex interface = BuildInterface(indicators, particles);
+  InterfaceComplex interface = BuildInterface(indicators, particles, {}, monitor);
   result.Tetrahedra = interface.Tetrahedra.Size();
   result.EmptySets = interface.Labels.EmptySets;
   return SurfaceComplex({ std::move(particles), std::move(interface.Faces) });
@@ -61,7 +62,9 @@ void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const
     }
     if (mended == 0 || placing == Placing::Particles)
     {
-      complex = Build(indicators, repair.RemainingParticles(), result);
+      complex = Build(indicators, repair.RemainingParticles(), result,
+        monitor.Part(
+          double(result.Rounds + 1) / options.RepairRounds, double(result.Rounds + 1) / options.RepairRounds));
     }
     placing = mended == 0 ? Placing::Particles : Placing::Faces;
     faults = FindFaults(complex, indicators.Background());
@@ -166,12 +169,12 @@ MeshResult MeshInterfaces(
   const IndicatorSet& indicators, std::vector<Particle> particles, const MeshOptions& options, const Monitor& monitor)
 {
   MeshResult result;
-  monitor.Step(0.0, "Tetrahedralising");
   if (indicators.Border())
   {
     SnapToBorder(*indicators.Border(), particles);
   }
-  SurfaceComplex complex = Build(indicators, std::move(particles), result);
+  SurfaceComplex complex = Build(indicators, std::move(particles), result, monitor.Part(0.0, 0.5));
+  monitor.Step(0.5, "Repairing");
   RepairFaults(indicators, complex, options, result, monitor.Part(0.5, 0.6));
   ImproveWithoutCuts(indicators, complex, options, result, monitor.Part(0.6, 0.9));
   result.Mesh = std::move(complex).Compacted();

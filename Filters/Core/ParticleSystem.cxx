@@ -80,7 +80,9 @@ SampleResult SampleCells(
     std::iota(moving.begin(), moving.end(), fixed);
     RelaxOptions relax;
     relax.Sweeps = std::min(SweepsPerPopulation, options.Sweeps - done);
-    result.MeanMove = Relax(indicators, &targetLength, result.Particles, moving, relax);
+    const Monitor part =
+      monitor.Part(0.2 + 0.8 * done / options.Sweeps, 0.2 + 0.8 * (done + relax.Sweeps) / options.Sweeps);
+    result.MeanMove = Relax(indicators, &targetLength, result.Particles, moving, relax, part);
     done += relax.Sweeps;
     candidates.Renumber(DeleteCrowded(result.Particles, protection));
     if (done < options.Sweeps)

@@ -282,12 +282,13 @@ public:
   {
   }
 
-  double Run()
+  double Run(const Monitor& monitor)
   {
     const Index count = Index(this->Moving.size());
     double mean = 0.0, sinceList = 0.0;
     for (int sweep = 0; sweep < this->Options.Sweeps; ++sweep)
     {
+      monitor.Step(double(sweep) / this->Options.Sweeps);
       if (sweep == 0 || sinceList > ListedMove)
       {
         this->Lists.emplace(this->Particles, this->Moving);
@@ -361,8 +362,8 @@ bool PutOnInterface(
 }
 
 double Relax(const IndicatorSet& indicators, const Grid<float>* targetLength, std::vector<Particle>& particles,
-  const std::vector<Index>& moving, const RelaxOptions& options)
+  const std::vector<Index>& moving, const RelaxOptions& options, const Monitor& monitor)
 {
-  return Relaxer(indicators, targetLength, particles, moving, options).Run();
+  return Relaxer(indicators, targetLength, particles, moving, options).Run(monitor);
 }
 }

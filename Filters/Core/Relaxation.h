@@ -4,6 +4,7 @@
 #define LabelMesh_Core_Relaxation_h
 
 #include "IndicatorSet.h"
+#include "Monitor.h"
 #include "Particles.h"
 
 namespace LabelMesh
@@ -34,9 +35,9 @@ struct RelaxOptions
 /// moves all particles at once (Jacobi) by a Gauss-Newton step in their tangent planes with momentum and projects them
 /// back onto their interface; a particle that would leave its interface, where a third material is larger, stays.
 /// `targetLength` null: each keeps its target length.
-/// Returns the mean move of the last sweep in target lengths.
+/// The monitor hears of each sweep. Returns the mean move of the last one in target lengths.
 double Relax(const IndicatorSet& indicators, const Grid<float>* targetLength, std::vector<Particle>& particles,
-  const std::vector<Index>& moving, const RelaxOptions& options);
+  const std::vector<Index>& moving, const RelaxOptions& options, const Monitor& monitor = Monitor());
 
 /// Puts x on the interface of the pair and sets position, normal and residual of the particle; false where it does not
 /// converge within `reach` (world length) of x or another material is larger there.

@@ -188,8 +188,8 @@ std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& parti
     });
 }
 
-InterfaceComplex BuildInterface(
-  const IndicatorSet& indicators, const std::vector<Particle>& particles, const std::vector<char>& core)
+InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vector<Particle>& particles,
+  const std::vector<char>& core, const Monitor& monitor)
 {
   std::vector<Vec3> points;
   points.reserve(particles.size());
@@ -198,10 +198,14 @@ InterfaceComplex BuildInterface(
     points.push_back(p.Position);
   }
   InterfaceComplex complex;
+  monitor.Step(0.0, "Tetrahedralising");
   complex.Tetrahedra = DelaunayTetrahedra(points);
+  monitor.Step(0.5, "Labelling tetrahedra");
   complex.Labels = LabelTetrahedra(indicators, particles, complex.Tetrahedra);
   const MaterialId outside = indicators.Background() != NoMaterial ? indicators.Background() : MaterialId(0);
+  monitor.Step(0.7, "Labelling tetrahedra");
   MakeManifold(particles, complex.Tetrahedra, outside, core, complex.Labels);
+  monitor.Step(0.9, "Labelling tetrahedra");
   complex.Faces = InterfaceFaces(particles, complex.Tetrahedra, complex.Labels, outside);
   return complex;
 }

@@ -6,6 +6,7 @@
 #include "Delaunay.h"
 #include "IndicatorSet.h"
 #include "InterfaceMesh.h"
+#include "Monitor.h"
 
 namespace LabelMesh
 {
@@ -32,7 +33,7 @@ MaterialSet SharedMaterials(const std::vector<Particle>& particles, const std::a
 std::vector<InterfaceTriangle> InterfaceFaces(const std::vector<Particle>& particles,
   const Tetrahedralization& tetrahedra, const TetraLabels& labels, MaterialId outside);
 
-/// The interface of a set of particles: all of the above. `core` as in MakeManifold.
+/// The interface of a set of particles: all of the above. `core` as in MakeManifold. The monitor hears of each step.
 struct InterfaceComplex
 {
   Tetrahedralization Tetrahedra;
@@ -40,7 +41,7 @@ struct InterfaceComplex
   std::vector<InterfaceTriangle> Faces;
 };
 InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vector<Particle>& particles,
-  const std::vector<char>& core = std::vector<char>());
+  const std::vector<char>& core = std::vector<char>(), const Monitor& monitor = Monitor());
 
 /// A face is right if and only if both its materials are in the sets of all its vertices.
 bool IsWrong(const std::vector<Particle>& particles, const InterfaceTriangle& face);

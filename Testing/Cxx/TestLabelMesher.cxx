@@ -23,7 +23,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <ctime>
+#include <thread>
 
 using namespace TestMeshes;
 
@@ -266,6 +270,99 @@ TEST(LabelMesher, MirroredAndOriented)
   }
 }
 
+namespace
+{
+/// Frames of one grid: turned, mirrored, exchanged axes, moved.
+std::vector<GridFrame> FramesOf(const std::array<int, 6>& extent, const Vec3& spacing)
+{
+  Mat3 turned;
+  turned << 0.36, -0.48, 0.8, 0.8, 0.6, 0.0, -0.48, 0.64, 0.6;
+  Mat3 mirrored = turned;
+  mirrored.col(1) *= -1;
+  Mat3 exchanged;
+  exchanged << 0, 1, 0, 1, 0, 0, 0, 0, 1; // a mirror, too
+  Mat3 inverted = -Mat3::Identity();
+  std::vector<GridFrame> frames;
+  for (const Mat3& direction : { turned, mirrored, exchanged, inverted })
+  {
+    frames.emplace_back(extent, Vec3(12, -345, 6.5), spacing, direction);
+  }
+  return frames;
+}
+
+/// Expects the mesh of `plain`, whose frame has neither origin nor direction, moved by the isometry of `frame`.
+void ExpectMoved(vtkPolyData* plain, vtkPolyData* moved, const GridFrame& frame)
+{
+  ASSERT_EQ(moved->GetNumberOfPoints(), plain->GetNumberOfPoints());
+  double farthest = 0;
+  for (vtkIdType n = 0; n < plain->GetNumberOfPoints(); ++n)
+  {
+    const Vec3 expected = frame.Direction() * Vec3(plain->GetPoint(n)) + frame.Origin();
+    farthest = std::max(farthest, (Vec3(moved->GetPoint(n)) - expected).norm());
+  }
+  EXPECT_LT(farthest, 1e-9) << "rounding of coordinates below a thousand";
+  const InterfaceData a = ReadInterface(plain), b = ReadInterface(moved);
+  const bool mirror = frame.Direction().determinant() < 0;
+  ASSERT_EQ(a.Triangles.size(), b.Triangles.size());
+  for (std::size_t t = 0; t < a.Triangles.size(); ++t)
+  {
+    std::array<Index, 3> before, after;
+    std::copy_n(a.Triangles[t].Vertices.begin(), 3, before.begin());
+    std::copy_n(b.Triangles[t].Vertices.begin(), 3, after.begin());
+    // The first vertex may be another, the way around is that of the frame.
+    if (mirror)
+    {
+      std::reverse(after.begin(), after.end());
+    }
+    std::rotate(before.begin(), std::min_element(before.begin(), before.end()), before.end());
+    std::rotate(after.begin(), std::min_element(after.begin(), after.end()), after.end());
+    ASSERT_EQ(before, after) << "triangle " << t;
+    ASSERT_EQ(a.Triangles[t].Materials, b.Triangles[t].Materials) << "triangle " << t;
+  }
+}
+}
+
+TEST(LabelMesher, FramesMoveTheMeshAndNothingElse)
+{
+  for (const Vec3& spacing : { Vec3(1, 1, 1), Vec3(0.3, 1, 3), Vec3(1, 10, 1) })
+  {
+    for (const int first : { 0, -7 })
+    {
+      // Balls of voxels, however long the voxels are; one reaches the border of the volume.
+      const std::array<int, 6> extent = { first, first + 23, first, first + 19, 0, 21 };
+      const auto volume = LabelVolume(extent,
+        [first](int i, int j, int k)
+        {
+          const Vec3 x(i - first, j - first, k);
+          return (x - Vec3(9, 9, 9)).norm() < 8 ? 1 : (x - Vec3(17, 10, 12)).norm() < 8 ? 2 : 0;
+        });
+      SetFrame(volume, GridFrame(extent, Vec3::Zero(), spacing, Mat3::Identity()));
+      vtkNew<vtkLabelMesher> plain;
+      plain->SetInputData(volume);
+      plain->Update();
+      ASSERT_GT(plain->GetOutput()->GetNumberOfCells(), 500);
+      const MeshCheck check = CheckOf(plain->GetOutput());
+      for (const GridFrame& frame : FramesOf(extent, spacing))
+      {
+        const auto turned = vtkSmartPointer<vtkImageData>::New();
+        turned->DeepCopy(volume);
+        SetFrame(turned, frame);
+        vtkNew<vtkLabelMesher> mesher;
+        mesher->SetInputData(turned);
+        mesher->Update();
+        ExpectMoved(plain->GetOutput(), mesher->GetOutput(), frame);
+        const MeshCheck moved = CheckOf(mesher->GetOutput());
+        for (std::size_t m = 1; m < moved.Materials.size(); ++m)
+        {
+          EXPECT_TRUE(moved.Materials[m].Sound());
+          EXPECT_GT(moved.Materials[m].Volume, 0) << "outward";
+          EXPECT_NEAR(moved.Materials[m].Volume, check.Materials[m].Volume, 1e-6 * check.Materials[m].Volume);
+        }
+      }
+    }
+  }
+}
+
 TEST(LabelMesher, ErrorsAreItsOwnAndSaidOnce)
 {
   vtkNew<vtkLabelMesher> mesher;
@@ -295,6 +392,104 @@ TEST(LabelMesher, AbortStopsTheRunningStage)
   mesher->Modified();
   mesher->Update();
   EXPECT_GT(mesher->GetOutput()->GetNumberOfCells(), 100) << "runs again after an abort";
+}
+
+namespace
+{
+/// Stops a filter at a chosen one of its progress events, and measures how much work lies between two of them.
+class EventCounter
+{
+public:
+  explicit EventCounter(vtkAlgorithm* filter, int last = -1)
+    : Last(last)
+    , Tag(filter->AddObserver(vtkCommand::ProgressEvent, this, &EventCounter::Watch))
+    , Before(std::clock())
+  {
+  }
+  void Watch(vtkObject* caller, unsigned long, void*)
+  {
+    const std::clock_t now = std::clock();
+    this->LongestGap = std::max(this->LongestGap, double(now - this->Before) / CLOCKS_PER_SEC);
+    this->Before = now;
+    if (this->Count++ == this->Last)
+    {
+      vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+    }
+  }
+  int Last;
+  unsigned long Tag;
+  std::clock_t Before;
+  int Count = 0;
+  double LongestGap = 0.0; ///< seconds of all processors, which the load of the machine does not change
+};
+}
+
+TEST(LabelMesher, AbortAtAnyPointLeavesNothingBehind)
+{
+  const auto volume = TwoSpheres(20);
+  vtkNew<vtkLabelMesher> fresh;
+  fresh->SetInputData(volume);
+  EventCounter all(fresh);
+  fresh->Update();
+  const std::string expected = BytesOf(fresh->GetOutput());
+  ASSERT_GT(all.Count, 60);
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(volume);
+  for (int last = 0; last + 2 < all.Count; last += 3)
+  {
+    EventCounter stopper(mesher, last);
+    mesher->SetAbortExecute(0);
+    mesher->Modified();
+    mesher->AddLabel(1); // so that all stages run anew
+    mesher->Update();
+    for (int port = 0; port < 4; ++port)
+    {
+      if (auto* output = vtkPolyData::SafeDownCast(mesher->GetOutputDataObject(port)))
+      {
+        EXPECT_EQ(output->GetNumberOfPoints(), 0) << "port " << port << ", event " << last;
+      }
+    }
+    EXPECT_EQ(mesher->GetSurfaces()->GetNumberOfPartitionedDataSets(), 0u) << "event " << last;
+    mesher->RemoveObserver(stopper.Tag);
+    mesher->ClearLabels();
+    mesher->SetAbortExecute(0);
+    mesher->Modified();
+    mesher->Update();
+    EXPECT_EQ(BytesOf(mesher->GetOutput()), expected) << "after an abort at event " << last;
+  }
+}
+
+TEST(LabelMesher, HearsOfAnAbortInTime)
+{
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputData(TwoSpheres(160));
+  EventCounter counter(mesher);
+  mesher->Update();
+  EXPECT_LT(counter.LongestGap, 1.0);
+}
+
+TEST(LabelMesher, TwoAtOnceInOneProcess)
+{
+  const auto meshOf = [](vtkImageData* volume)
+  {
+    vtkNew<vtkLabelMesher> mesher;
+    mesher->SetInputData(volume);
+    mesher->Update();
+    return BytesOf(mesher->GetOutput());
+  };
+  const std::array<vtkSmartPointer<vtkImageData>, 2> volumes = { TwoSpheres(24), TwoSpheres(31) };
+  std::array<std::string, 2> alone, together;
+  for (std::size_t n = 0; n < 2; ++n)
+  {
+    alone[n] = meshOf(volumes[n]);
+  }
+  for (int round = 0; round < 5; ++round)
+  {
+    std::thread other([&]() { together[0] = meshOf(volumes[0]); });
+    together[1] = meshOf(volumes[1]);
+    other.join();
+    EXPECT_EQ(together, alone);
+  }
 }
 
 TEST(LabelMesher, ProgressNamesTheStages)

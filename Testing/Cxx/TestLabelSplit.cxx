@@ -3,7 +3,9 @@
 
 #include "Core/MaterialMasks.h"
 #include "IndicatorCollection.h"
+#include "LabelImage.h"
 #include "LabelMeshNames.h"
+#include "MemoryEstimate.h"
 #include "TestCollections.h"
 
 #include <vtkCellData.h>
@@ -431,6 +433,30 @@ TEST(LabelSplit, SaysWhatIsWrong)
     split->SetResamplingFactor(factor);
     split->Update();
     EXPECT_NE(listener.Errors.find("resampling factor"), std::string::npos);
+  }
+}
+
+TEST(LabelSplit, RefusesWhatTakesTooMuchMemory)
+{
+  const auto image = MakeImage({ 0, 15, 0, 15, 0, 15 }, [](int i, int, int) { return i < 8 ? 1 : 0; });
+  const LabelMesh::LabelImage labels =
+    LabelMesh::ReadLabelImage(image, image->GetPointData()->GetArray("Segments"), false);
+  const double working = 28 * 28 * 28, block = 20 * 28 * 28; // with six samples of padding
+  const double faces = 16 * 16 + (16 * 16 + 4 * 8 * 16);     // between the labels, and on the border of the volume
+  const double estimate = LabelMesh::EstimateMemory(labels, 0, 6, 1.0);
+  EXPECT_DOUBLE_EQ(estimate, 50.0 * 1048576 + 17.0 * (working + block) + 8.0 * working + 1000.0 * faces);
+  EXPECT_GT(LabelMesh::EstimateMemory(labels, 0, 6, 2.0), estimate);
+  for (const double limit : { 0.0, 1.01 * estimate / 1073741824, 0.99 * estimate / 1073741824 })
+  {
+    vtkNew<vtkLabelSplit> split;
+    Listener listener(split);
+    Listener executive(split->GetExecutive());
+    split->SetInputData(image);
+    split->SetMemoryLimit(limit);
+    split->Update();
+    const bool refused = listener.Errors.find("raise the memory limit") != std::string::npos;
+    EXPECT_EQ(refused, limit > 0 && limit * 1073741824 < estimate) << listener.Errors;
+    EXPECT_EQ(split->GetOutput()->GetNumberOfPartitionedDataSets(), refused ? 0u : 2u);
   }
 }
 

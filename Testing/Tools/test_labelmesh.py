@@ -4,6 +4,7 @@
 import gzip
 import json
 import os
+import resource
 import shutil
 import signal
 import struct
@@ -297,6 +298,65 @@ class TestInput(CommandLineTest):
         low, high = meshes[0].min(axis=0), meshes[0].max(axis=0)
         self.assertTrue(np.all(low < centre) and np.all(centre < high))
 
+    def test_full_disk(self):
+        """A file that cannot be written whole leaves the old one as it was, and nothing beside it."""
+        self.mesh(self.spheres, "-o", "m.vtp", "--surfaces", "s.vtpc", "--report", "r.json", "--quiet")
+        old = {path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}
+        whole = (self.folder / "m.vtp").stat().st_size
+
+        def limit(size):
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # writing then fails as it does on a full disk
+            resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+        for size in (0, 100, whole // 3, whole - 1):
+            result = subprocess.run([LABELMESH, self.spheres, "-o", "m.vtp", "--surfaces", "s.vtpc", "--report",
+                                     "r.json", "--epsilon", "0.5", "--quiet"], cwd=self.folder, capture_output=True,
+                                    text=True, timeout=120, preexec_fn=lambda: limit(size))
+            self.assertEqual(result.returncode, 1, size)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+            self.assertIn("cannot write", result.stderr)
+            self.assertEqual({path: path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}, old)
+
+    def test_nrrd_of_every_kind(self):
+        """Each type, both ends first, packed, raw and as text, attached and in a file of its own: the same mesh."""
+        meshes = set()
+        bodies = {"raw": bytes, "gzip": gzip.compress}
+        for type_name, code in (("int8", "i1"), ("uchar", "u1"), ("short", "i2"), ("unsigned short", "u2"),
+                                ("int", "i4"), ("uint32", "u4"), ("longlong", "i8"), ("uint64", "u8"),
+                                ("float", "f4"), ("double", "f8")):
+            for encoding, endian in (("gzip", "<"), ("raw", ">")):
+                data = bodies[encoding](SPHERES.astype(endian + code).tobytes())
+                head = (f"NRRD0004\ntype: {type_name}\ndimension: 3\nsizes: 32 32 32\nencoding: {encoding}\n"
+                        f"endian: {'little' if endian == '<' else 'big'}\n")
+                (self.folder / "v.nrrd").write_bytes(head.encode() + b"\n" + data)
+                self.mesh("v.nrrd", "-o", "m.vtp", "--quiet")
+                meshes.add((self.folder / "m.vtp").read_bytes())
+        (self.folder / "v.nrrd").write_text(head.replace("raw", "text") + "data file: v.txt\n")
+        (self.folder / "v.txt").write_text(" ".join(str(n) for n in SPHERES.ravel()))
+        self.mesh("v.nrrd", "-o", "m.vtp", "--quiet")
+        meshes.add((self.folder / "m.vtp").read_bytes())
+        self.assertEqual(len(meshes), 1)
+        (self.folder / "v.txt").unlink()
+        self.refuse("'v.txt' cannot be opened", "v.nrrd", "-o", "n.vtp")
+
+    def test_names_and_colours_of_segments(self):
+        """As 3D Slicer writes them into .seg.nrrd files; --material comes before them."""
+        fields = ("space: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
+                  "Segment0_ID:=Segment_1\nSegment0_LabelValue:=1\nSegment0_Name:=left kidney\n"
+                  "Segment0_Color:=0.5 0.25 1\nSegment1_LabelValue:=2\nSegment1_Name:=liver\n")
+        write_nrrd(self.folder / "v.seg.nrrd", SPHERES, fields)
+        self.mesh("v.seg.nrrd", "-o", "m.vtp", "--surfaces", "s.vtpc", "--material", "2:name=own", "--quiet")
+        mesh = read_mesh(self.folder / "m.vtp").GetFieldData()
+        names = mesh.GetAbstractArray("MaterialNames")
+        self.assertEqual([names.GetValue(n) for n in range(names.GetNumberOfValues())][-2:], ["left kidney", "own"])
+        colors = vtk_to_numpy(mesh.GetArray("MaterialColors"))
+        np.testing.assert_allclose(colors[-2], (0.5, 0.25, 1.0))
+        self.assertIn('"left kidney"', (self.folder / "s.vtpc").read_text())
+        write_nrrd(self.folder / "four.nrrd", SPHERES, "")
+        four = (self.folder / "four.nrrd").read_bytes().replace(b"dimension: 3", b"dimension: 4")
+        (self.folder / "four.nrrd").write_bytes(four.replace(b"sizes:", b"sizes: 2"))
+        self.refuse("segments that overlap", "four.nrrd", "-o", "n.vtp")
+
     def test_mirrored(self):
         make_volumes.write_mha(self.folder / "a.mha", SPHERES, direction=np.diag([1.0, 1, -1]))
         write_nifti(self.folder / "b.nii", SPHERES, [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])
@@ -371,6 +431,7 @@ class TestRefusals(CommandLineTest):
         make_volumes.write_mha(self.folder / "blank.mha", np.zeros((16, 16, 16), np.uint8))
         self.refuse("nothing to mesh", "blank.mha", *mesh)
         self.refuse("nothing to mesh", self.spheres, *mesh, "--labels", "0")
+        self.refuse("the limit is 0.01 GiB", self.spheres, *mesh, "--memory-limit", "0.01", "--quiet")
         image = vtkImageData()
         writer = vtkXMLImageDataWriter()
         writer.SetFileName(str(self.folder / "none.vti"))
@@ -380,6 +441,10 @@ class TestRefusals(CommandLineTest):
         (self.folder / "skew.nrrd").write_bytes(b"")
         write_nrrd(self.folder / "skew.nrrd", SPHERES, "space dimension: 3\nspace directions: (1,0,0) (1,1,0) (0,0,1)\n")
         self.refuse("right angles", "skew.nrrd", *mesh)
+        write_nrrd(self.folder / "needles.nrrd", SPHERES, "spacings: 1 1 1000\n")
+        self.refuse("100 times as long as wide", "needles.nrrd", *mesh, "--quiet")
+        write_nrrd(self.folder / "far.nrrd", SPHERES, "space origin: (1e20,0,0)\n")
+        self.refuse("Move the origin", "far.nrrd", *mesh, "--quiet")
 
     def test_stopped(self):
         big = self.folder / "big.mha"
