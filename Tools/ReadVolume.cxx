@@ -14,6 +14,8 @@
 #include <vtkPointData.h>
 #include <vtkXMLImageDataReader.h>
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -22,6 +24,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -277,6 +280,74 @@ void RequireSaneVti(const std::string& file)
   }
 }
 
+constexpr double DensestPacking = 1100; // voxels per byte: deflate packs 1032 to 1 at best
+
+/// MetaIO loops over as many axes as the header says, and VTK ends the program when there is not the memory for them.
+void RequireSaneMetaImage(const std::string& file)
+{
+  const std::vector<double> dimensions = NumbersIn(HeaderValue(file, "NDims", "="));
+  if (dimensions.size() != 1 || (dimensions[0] != 2 && dimensions[0] != 3))
+  {
+    Fail("it is not a MetaImage of three dimensions, or its header is broken");
+  }
+  double samples = 1;
+  for (const double size : NumbersIn(HeaderValue(file, "DimSize", "=")))
+  {
+    samples *= size;
+  }
+  const std::string data = OneLine(HeaderValue(file, "ElementDataFile", "="));
+  std::error_code missing;
+  const std::uintmax_t bytes =
+    fs::file_size(data == "LOCAL" ? fs::path(file) : fs::path(file).parent_path() / data, missing);
+  if (!missing && !(samples <= DensestPacking * static_cast<double>(bytes)))
+  {
+    Fail("it is truncated: its data end too early");
+  }
+}
+
+/// vtkNIFTIImageReader crashes at types that it does not know.
+void RequireSaneNifti(const std::string& file)
+{
+  std::array<unsigned char, 80> header{};
+  gzFile stream = gzopen(file.c_str(), "rb"); // packed or not
+  const int read = stream ? gzread(stream, header.data(), static_cast<unsigned>(header.size())) : 0;
+  if (stream)
+  {
+    gzclose(stream);
+  }
+  const auto number = [&](int at, int bytes, bool swapped)
+  {
+    std::int64_t value = 0;
+    for (int n = 0; n < bytes; ++n)
+    {
+      value |= static_cast<std::int64_t>(header[at + (swapped ? bytes - 1 - n : n)]) << 8 * n;
+    }
+    return value;
+  };
+  const bool swapped = number(0, 4, false) != 348 && number(0, 4, false) != 540;
+  const std::int64_t kind = number(0, 4, swapped);
+  if (read != static_cast<int>(header.size()) || (kind != 348 && kind != 540))
+  {
+    Fail("it is not a NIfTI file, or a broken one");
+  }
+  const bool second = kind == 540; // NIfTI-2
+  const std::int64_t type = number(second ? 12 : 70, 2, swapped);
+  const std::set<std::int64_t> types = { 2, 4, 8, 16, 64, 256, 512, 768, 1024, 1280 };
+  if (types.count(type) == 0)
+  {
+    Fail("its voxels have the NIfTI type " + std::to_string(type) + ", expected integers, float or double");
+  }
+  double samples = 1;
+  for (int a = 1; a <= 3; ++a)
+  {
+    samples *= static_cast<double>(second ? number(16 + 8 * a, 8, swapped) : number(40 + 2 * a, 2, swapped));
+  }
+  if (!(samples <= DensestPacking * static_cast<double>(fs::file_size(file))))
+  {
+    Fail("it is truncated: its data end too early");
+  }
+}
+
 vtkSmartPointer<vtkImageData> Read(const std::string& file, std::map<long long, LabelStyle>& styles)
 {
   const std::string suffix = SuffixOf(file);
@@ -287,6 +358,14 @@ vtkSmartPointer<vtkImageData> Read(const std::string& file, std::map<long long, 
   if (suffix == ".vti")
   {
     RequireSaneVti(file);
+  }
+  else if (suffix == ".mha" || suffix == ".mhd")
+  {
+    RequireSaneMetaImage(file);
+  }
+  else if (suffix == ".nii" || suffix == ".nii.gz")
+  {
+    RequireSaneNifti(file);
   }
   const StreamCapture capture;
   const vtkSmartPointer<vtkAlgorithm> reader = ReaderOf(file, suffix);

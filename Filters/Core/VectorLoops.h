@@ -9,8 +9,10 @@
 
 /// A function that is compiled twice, for any x86-64 and for one with AVX2, which the loader chooses between. Both do
 /// the same operations on each number in the same order (no fused multiply-add), so the results have the same bits.
-/// A macro because only some compilers know the attribute.
-#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__)
+/// A macro because only some compilers know the attribute. Not under ThreadSanitizer, whose calls GCC also puts into
+/// the function that chooses, which the loader runs before the sanitizer is ready.
+#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) &&                           \
+  !defined(__SANITIZE_THREAD__)
 #define LABELMESH_FOR_ANY_X86 __attribute__((target_clones("avx2", "default")))
 #else
 #define LABELMESH_FOR_ANY_X86
