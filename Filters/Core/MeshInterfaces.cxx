@@ -7,6 +7,8 @@
 #include "SelfIntersections.h"
 #include "TetraLabeling.h"
 
+#include <memory>
+
 namespace LabelMesh
 {
 namespace
@@ -39,35 +41,66 @@ SurfaceComplex Build(
   return SurfaceComplex({ std::move(particles), std::move(interface.Faces) });
 }
 
+/// A vertex where surfaces touch themselves is not worth another tetrahedralisation: each material's own surface is
+/// taken apart there.
+bool IsPinch(const Fault& fault)
+{
+  return fault.Vertices.size() == 1;
+}
+
 /// Mends what the particles got wrong, until nothing is left or nothing helps. Nearly all faults are mended in their
 /// place; for those whose change reaches beyond their patch all particles are tetrahedralised once more.
 void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const MeshOptions& options,
   MeshResult& result, const Monitor& monitor)
 {
   using Placing = LocalRepair::Placing;
-  Placing placing = Placing::Faces;
   std::vector<Fault> faults = FindFaults(complex, indicators.Background());
-  for (; result.Rounds < options.RepairRounds && !faults.empty(); ++result.Rounds)
+  if (faults.empty())
   {
-    LocalRepair repair(indicators, complex, std::min(options.RepairBelow, PoorRatio));
+    return;
+  }
+  // It remembers which particles it has deleted, so it is made anew with the complex alone.
+  const double wanted = std::min(options.RepairBelow, PoorRatio);
+  auto repair = std::make_unique<LocalRepair>(indicators, complex, wanted);
+  const auto rebuild = [&]()
+  {
+    complex = Build(indicators, repair->RemainingParticles(), result, monitor.Part(1.0, 1.0));
+    repair = std::make_unique<LocalRepair>(indicators, complex, wanted);
+    faults = FindFaults(complex, indicators.Background());
+  };
+  const auto pass = [&](Placing placing)
+  {
     Index mended = 0;
     for (std::size_t n = 0; n < faults.size(); ++n)
     {
       monitor.Step((result.Rounds + double(n) / double(faults.size())) / options.RepairRounds, "Repairing");
-      mended += repair.Mend(faults[n], placing);
+      mended += repair->Mend(faults[n], placing);
     }
-    if (mended == 0 && placing == Placing::Particles)
+    return mended;
+  };
+  bool replaced = false;
+  for (; result.Rounds < options.RepairRounds && !faults.empty(); ++result.Rounds)
+  {
+    if (pass(Placing::Faces) > 0)
+    {
+      replaced = true;
+      faults = FindFaults(complex, indicators.Background());
+      continue;
+    }
+    if (std::all_of(faults.begin(), faults.end(), IsPinch))
     {
       return;
     }
-    if (mended == 0 || placing == Placing::Particles)
+    if (replaced)
     {
-      complex = Build(indicators, repair.RemainingParticles(), result,
-        monitor.Part(
-          double(result.Rounds + 1) / options.RepairRounds, double(result.Rounds + 1) / options.RepairRounds));
+      rebuild();
+      replaced = false;
     }
-    placing = mended == 0 ? Placing::Particles : Placing::Faces;
-    faults = FindFaults(complex, indicators.Background());
+    if (pass(Placing::Particles) == 0)
+    {
+      return;
+    }
+    rebuild();
   }
 }
 
