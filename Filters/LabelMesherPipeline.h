@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stages of vtkLabelMesher, connected.
+#ifndef LabelMesherPipeline_h
+#define LabelMesherPipeline_h
+
+#include "FilterSupport.h"
+#include "InnerFilter.h"
+#include "vtkDelaunayLabelMesh.h"
+#include "vtkIndicatorReconstruct.h"
+#include "vtkLabelMesher.h"
+#include "vtkLabelSplit.h"
+#include "vtkParticleSampleCells.h"
+#include "vtkSizingField.h"
+#include "vtkTighten.h"
+
+#include <vtkCellData.h>
+#include <vtkCommand.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkTrivialProducer.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+
+namespace LabelMesh
+{
+/// A data object handed into the inner pipeline: replaced, and so seen as new, only when what it holds has changed.
+class Feed
+{
+public:
+  Feed() { this->Producer->SetOutput(this->Image); }
+
+  /// The image's structure and the array as its scalars.
+  void Set(vtkImageData* image, vtkDataArray* array, bool cellData)
+  {
+    const std::array<vtkMTimeType, 3> state = { image->GetMTime(), array ? array->GetMTime() : 0, cellData ? 1u : 0u };
+    if (state == this->State && array == this->Array)
+    {
+      return;
+    }
+    this->State = state;
+    this->Array = array;
+    this->Image->Initialize();
+    this->Image->CopyStructure(image);
+    if (array)
+    {
+      vtkDataSetAttributes* data = this->Image->GetPointData();
+      if (cellData)
+      {
+        data = this->Image->GetCellData();
+      }
+      data->SetScalars(array);
+    }
+    this->Image->Modified();
+  }
+  vtkAlgorithmOutput* GetOutputPort() { return this->Producer->GetOutputPort(); }
+
+private:
+  vtkNew<vtkImageData> Image;
+  vtkNew<vtkTrivialProducer> Producer;
+  std::array<vtkMTimeType, 3> State{ 0, 0, 0 };
+  vtkDataArray* Array = nullptr; // to compare, never followed
+};
+}
+
+class vtkLabelMesher::Pipeline
+{
+public:
+  struct Stage
+  {
+    vtkAlgorithm* Filter;
+    const char* Name;
+    double Weight; ///< of the whole time, for the progress
+    double Seconds = 0.0;
+    int Runs = 0;
+  };
+
+  Pipeline()
+  {
+    // The fields are by far the largest data: one copy of them is kept, the indicators, which take the memory of the
+    // distances over.
+    this->Split->ReleaseDataFlagOn();
+    this->Tighten->ReleaseDataFlagOn();
+    this->Split->SetInputConnection(this->Labels.GetOutputPort());
+    this->Tighten->SetInputConnection(this->Split->GetOutputPort());
+    this->Reconstruct->SetInputConnection(this->Tighten->GetOutputPort());
+    this->Sizing->SetInputConnection(0, this->Reconstruct->GetOutputPort());
+    this->Sample->SetInputConnection(0, this->Reconstruct->GetOutputPort());
+    this->Sample->SetInputConnection(1, this->Sizing->GetOutputPort());
+    this->Mesh->SetInputConnection(0, this->Sample->GetOutputPort());
+    this->Mesh->SetInputConnection(1, this->Reconstruct->GetOutputPort());
+    for (Stage& stage : this->All)
+    {
+      stage.Filter->AddObserver(vtkCommand::StartEvent, this, &Pipeline::OnStart);
+      stage.Filter->AddObserver(vtkCommand::EndEvent, this, &Pipeline::OnEnd);
+    }
+  }
+
+  void SetBound(vtkImageData* bound, vtkDataArray* array)
+  {
+    const bool connected = this->Sizing->GetNumberOfInputConnections(1) > 0;
+    if (bound)
+    {
+      this->Bound.Set(bound, array, false);
+    }
+    if (bound && !connected)
+    {
+      this->Sizing->SetInputConnection(1, this->Bound.GetOutputPort());
+    }
+    else if (!bound && connected)
+    {
+      this->Sizing->RemoveAllInputConnections(1);
+    }
+  }
+
+  /// Brings one stage after the other up to date.
+  void Update(vtkAlgorithm* outer, const LabelMesh::Monitor& monitor)
+  {
+    // The first stages run for the one that keeps its output.
+    double done = 0.0, next = 0.0;
+    std::vector<LabelMesh::InnerStage> chain;
+    for (const Stage& stage : this->All)
+    {
+      chain.push_back({ stage.Filter, stage.Name, stage.Weight });
+      next += stage.Weight;
+      if (!stage.Filter->GetReleaseDataFlag())
+      {
+        LabelMesh::UpdateInner(chain, outer, monitor.Part(done, next));
+        done = next;
+        chain.clear();
+      }
+    }
+  }
+
+  const Stage* Find(const char* name) const
+  {
+    const auto at = std::find_if(
+      this->All.begin(), this->All.end(), [name](const Stage& s) { return name && std::strcmp(s.Name, name) == 0; });
+    return at != this->All.end() ? &*at : nullptr;
+  }
+
+  LabelMesh::Feed Labels, Bound;
+  vtkNew<vtkLabelSplit> Split;
+  vtkNew<vtkTighten> Tighten;
+  vtkNew<vtkIndicatorReconstruct> Reconstruct;
+  vtkNew<vtkSizingField> Sizing;
+  vtkNew<vtkParticleSampleCells> Sample;
+  vtkNew<vtkDelaunayLabelMesh> Mesh;
+  std::array<Stage, 6> All = { { { this->Split, "LabelSplit", 0.05 }, { this->Tighten, "Tighten", 0.3 },
+    { this->Reconstruct, "IndicatorReconstruct", 0.05 }, { this->Sizing, "SizingField", 0.1 },
+    { this->Sample, "ParticleSampleCells", 0.3 }, { this->Mesh, "DelaunayLabelMesh", 0.2 } } };
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  void OnStart(vtkObject*, unsigned long, void*) { this->Started = Clock::now(); }
+  void OnEnd(vtkObject* caller, unsigned long, void*)
+  {
+    for (Stage& stage : this->All)
+    {
+      if (stage.Filter == caller)
+      {
+        stage.Seconds = std::chrono::duration<double>(Clock::now() - this->Started).count();
+        ++stage.Runs;
+      }
+    }
+  }
+  Clock::time_point Started;
+};
+
+#endif
