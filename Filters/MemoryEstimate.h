@@ -9,7 +9,7 @@ namespace LabelMesh
 {
 /// Bytes at the peak of vtkLabelMesher with the default sizing, the program and its libraries among them:
 ///     50 MiB + 17 per sample of all blocks + 8 per sample of the working grid + 1000 per face between two labels,
-/// which is 0.95 to 1.4 times what nine scans, grain maps and rock models took (0.1 to 1.1 GiB). Blocks are the boxes
+/// rounded up from a fit to the peaks of nine scans, grain maps and rock models (0.07 to 1.1 GiB). Blocks are the boxes
 /// of the labels, the background's being the whole grid, each with its padding. Shorter edges than the default's take
 /// more: particles go with the inverse square of the edge length. `resampling`: samples per voxel along each axis.
 double EstimateMemory(const LabelImage& image, Label background, int padding, double resampling);
