@@ -135,8 +135,9 @@ void CallBackground(MaterialId background, InterfaceMesh& mesh)
   }
 }
 
-/// The vertices of triangles that cut each other, ascending.
-std::vector<Index> VerticesOfCuts(const SurfaceComplex& complex)
+/// The vertices of triangles that cut each other, ascending; where `near` is not empty (ascending), only of cuts with
+/// triangles at those vertices.
+std::vector<Index> VerticesOfCuts(const SurfaceComplex& complex, const std::vector<Index>& near = {})
 {
   std::vector<Vec3> points;
   for (const Particle& p : complex.AllVertices())
@@ -144,12 +145,20 @@ std::vector<Index> VerticesOfCuts(const SurfaceComplex& complex)
     points.push_back(p.Position);
   }
   std::vector<TriangleCorners> corners;
+  std::vector<Index> subset;
   for (const InterfaceTriangle& triangle : complex.AliveTriangles())
   {
+    if (std::any_of(triangle.Vertices.begin(), triangle.Vertices.end(),
+          [&near](Index v) { return std::binary_search(near.begin(), near.end(), v); }))
+    {
+      subset.push_back(Index(corners.size()));
+    }
     corners.push_back(triangle.Vertices);
   }
+  const SelfIntersections found =
+    near.empty() ? FindSelfIntersections(points, corners) : FindSelfIntersections(points, corners, subset);
   std::vector<Index> vertices;
-  for (const auto& pair : FindSelfIntersections(points, corners).Pairs)
+  for (const auto& pair : found.Pairs)
   {
     for (const Index t : pair)
     {
@@ -161,8 +170,46 @@ std::vector<Index> VerticesOfCuts(const SurfaceComplex& complex)
   return vertices;
 }
 
-/// Improves the mesh. The faces of Delaunay tetrahedra do not cut each other: where improved ones do, the mesh stays as
-/// it was, and the rest is improved again.
+/// Puts what is around cuts back to what it was before it was improved, triangles and positions. False, and the
+/// improved mesh is of no use, where that does not fit what is around it now, or leaves a poor triangle or a cut.
+bool PutBack(const SurfaceComplex& before, const std::vector<Index>& cuts, SurfaceComplex& improved)
+{
+  std::vector<Index> core = cuts;
+  for (const SurfaceComplex* complex : { &before, static_cast<const SurfaceComplex*>(&improved) })
+  {
+    for (const Index v : cuts)
+    {
+      const std::vector<Index> around = v < complex->NumberOfVertices() ? complex->Neighbors(v) : std::vector<Index>();
+      core.insert(core.end(), around.begin(), around.end());
+    }
+  }
+  std::sort(core.begin(), core.end());
+  core.erase(std::unique(core.begin(), core.end()), core.end());
+  std::vector<InterfaceTriangle> triangles;
+  for (const std::int32_t t : before.TrianglesAt(core))
+  {
+    triangles.push_back(before.Triangle(t));
+  }
+  if (!improved.Fits(core, triangles))
+  {
+    return false;
+  }
+  improved.ReplaceStars(core, triangles);
+  for (const Index v : core)
+  {
+    if (v < before.NumberOfVertices())
+    {
+      improved.SetVertex(v, before.Vertex(v));
+    }
+  }
+  const std::vector<std::int32_t> replaced = improved.TrianglesAt(core);
+  return std::all_of(
+           replaced.begin(), replaced.end(), [&](std::int32_t t) { return improved.Ratio(t) >= PoorRatio; }) &&
+    VerticesOfCuts(improved, core).empty();
+}
+
+/// Improves the mesh. The faces of Delaunay tetrahedra do not cut each other: where improved ones do, the mesh is put
+/// back to what it was; where that cannot be done it stays there as it was while the rest is improved again.
 void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex, const MeshOptions& options,
   MeshResult& result, const Monitor& monitor)
 {
@@ -176,12 +223,12 @@ void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex,
     ImproveMesh(
       indicators, improved, improve, monitor.Part(double(attempt) / attempts, double(attempt + 1) / attempts));
     std::vector<Index> frozen = VerticesOfCuts(improved);
-    if (frozen.empty())
+    result.KeptFromCutting += Index(frozen.size());
+    if (frozen.empty() || PutBack(complex, frozen, improved))
     {
       complex = std::move(improved);
       return;
     }
-    result.KeptFromCutting += Index(frozen.size());
     frozen.erase(std::lower_bound(frozen.begin(), frozen.end(), complex.NumberOfVertices()), frozen.end());
     for (int ring = 0; ring <= attempt; ++ring)
     {

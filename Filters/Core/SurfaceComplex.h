@@ -38,6 +38,8 @@ public:
   };
   Flippable FlippableEdge(Index a, Index b) const;
   bool AreJoined(Index a, Index b) const;
+  /// The triangles at some vertices (numbers beyond the last have none), ascending.
+  std::vector<std::int32_t> TrianglesAt(const std::vector<Index>& vertices) const;
   /// The vertices around v, ascending.
   std::vector<Index> Neighbors(Index v) const;
 
@@ -91,7 +93,6 @@ private:
     InterfaceTriangle Value;
   };
 
-  std::vector<std::int32_t> TrianglesAt(const std::vector<Index>& vertices) const;
   void Save(Index v);
   void SaveTriangle(Index t);
   void Replace(Index t, Index before, Index after);
