@@ -332,6 +332,16 @@ double vtkLabelMesher::GetRepairBelow() const
   return this->Stages->Mesh->GetRepairBelow();
 }
 
+void vtkLabelMesher::SetChordCorrection(bool on)
+{
+  this->Stages->Mesh->SetChordCorrection(on);
+}
+
+bool vtkLabelMesher::GetChordCorrection() const
+{
+  return this->Stages->Mesh->GetChordCorrection();
+}
+
 void vtkLabelMesher::SetMaterialOpeningRadius(vtkIdType label, double radius)
 {
   this->Stages->Split->SetMaterialOpeningRadius(label, radius);

@@ -65,6 +65,7 @@ int vtkDelaunayLabelMesh::RequestData(
         options.RepairRounds = this->RepairRounds;
         options.ImprovePasses = this->ImprovePasses;
         options.RepairBelow = this->RepairBelow;
+        options.CorrectChords = this->ChordCorrection;
         result = MeshInterfaces(indicators, sites, options, monitor.Part(0.05, 0.9));
       }
       this->NumberOfTetrahedra = result.Tetrahedra;
@@ -94,6 +95,7 @@ void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RepairRounds: " << this->RepairRounds << "\n";
   os << indent << "ImprovePasses: " << this->ImprovePasses << "\n";
   os << indent << "RepairBelow: " << this->RepairBelow << "\n";
+  os << indent << "ChordCorrection: " << this->ChordCorrection << "\n";
   os << indent << "NumberOfTetrahedra: " << this->NumberOfTetrahedra << "\n";
   os << indent << "RoundsDone: " << this->RoundsDone << "\n";
   os << indent << "WrongFaces: " << this->WrongFaces << "\n";

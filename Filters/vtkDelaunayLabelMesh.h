@@ -28,6 +28,7 @@
  * local repair at faces whose materials are not in the sets of all their vertices, at edges and vertices where a
  * surface is not manifold and at slivers; then ImprovePasses passes of edge flips and of vertex smoothing by the
  * inverse mean ratio, each vertex within its own cell; then single edits at triangles that are still below RepairBelow.
+ * Last, ChordCorrection moves vertices so that faces lie on the interfaces.
  * No step makes triangles cut each other. The same input gives the same bits for any number of threads.
  *
  * Errors: arrays that are missing, labels that the indicators do not have, a failed tetrahedralisation.
@@ -59,6 +60,15 @@ public:
   /// Default 3.
   vtkSetClampMacro(ImprovePasses, int, 0, 1000);
   vtkGetMacro(ImprovePasses, int);
+  ///@}
+
+  ///@{
+  /// Whether the vertices leave their interfaces, along the normal, so that the faces lie there on average and not the
+  /// vertices: faces cut off what is convex, and small materials would lose some percent of their volume. Off: every
+  /// vertex is on its interface, as in the paper. Default on.
+  vtkSetMacro(ChordCorrection, bool);
+  vtkGetMacro(ChordCorrection, bool);
+  vtkBooleanMacro(ChordCorrection, bool);
   ///@}
 
   ///@{
@@ -96,6 +106,7 @@ protected:
   int RepairRounds = 8;
   int ImprovePasses = 3;
   double RepairBelow = 0.75;
+  bool ChordCorrection = true;
   vtkIdType NumberOfTetrahedra = 0;
   int RoundsDone = 0;
   vtkIdType WrongFaces = 0;

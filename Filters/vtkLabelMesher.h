@@ -170,13 +170,15 @@ public:
 
   ///@{
   /// vtkDelaunayLabelMesh: rounds of repair at most (8); passes of improvement (3); the radius ratio below which a
-  /// triangle is mended (0.75).
+  /// triangle is mended (0.75); whether faces, not vertices, lie on the interfaces (on).
   void SetRepairRounds(int rounds);
   int GetRepairRounds() const;
   void SetImprovePasses(int passes);
   int GetImprovePasses() const;
   void SetRepairBelow(double ratio);
   double GetRepairBelow() const;
+  void SetChordCorrection(bool on);
+  bool GetChordCorrection() const;
   ///@}
 
   ///@{

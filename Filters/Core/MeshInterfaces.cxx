@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshInterfaces.h"
 
+#include "ChordCorrection.h"
 #include "LocalRepair.h"
 #include "ManifoldLabels.h"
 #include "MeshImprovement.h"
@@ -208,8 +209,9 @@ bool PutBack(const SurfaceComplex& before, const std::vector<Index>& cuts, Surfa
     VerticesOfCuts(improved, core).empty();
 }
 
-/// Improves the mesh. The faces of Delaunay tetrahedra do not cut each other: where improved ones do, the mesh is put
-/// back to what it was; where that cannot be done it stays there as it was while the rest is improved again.
+/// Improves the mesh and corrects its chords. The faces of Delaunay tetrahedra do not cut each other: where improved
+/// ones do, the mesh is put back to what it was; where that cannot be done it stays there as it was while the rest is
+/// improved again.
 void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex, const MeshOptions& options,
   MeshResult& result, const Monitor& monitor)
 {
@@ -222,6 +224,10 @@ void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex,
     SurfaceComplex improved = complex;
     ImproveMesh(
       indicators, improved, improve, monitor.Part(double(attempt) / attempts, double(attempt + 1) / attempts));
+    if (options.CorrectChords)
+    {
+      CorrectChords(indicators, improved, options.RepairBelow);
+    }
     std::vector<Index> frozen = VerticesOfCuts(improved);
     result.KeptFromCutting += Index(frozen.size());
     if (frozen.empty() || PutBack(complex, frozen, improved))

@@ -14,6 +14,7 @@ struct MeshOptions
   int RepairRounds = 8;      ///< at most; it ends sooner when no fault is left
   int ImprovePasses = 3;     ///< of flipping edges and smoothing vertices
   double RepairBelow = 0.75; ///< radius ratio under which a triangle is mended
+  bool CorrectChords = true; ///< whether faces, not vertices, lie on the interfaces
 };
 
 struct MeshResult
@@ -32,8 +33,9 @@ struct MeshResult
 
 /// Delaunay tetrahedra of the particles, their labels, and the faces between different labels (paper, section 5.3);
 /// then local repair where the particles did not give the mesh that they should (LocalRepair: wrong faces, non-manifold
-/// edges and vertices, slivers), and better triangles on the cells that there are (MeshImprovement). What was free of
-/// self-intersections stays so. Throws std::runtime_error when the tetrahedralisation fails.
+/// edges and vertices, slivers), better triangles on the cells that there are (MeshImprovement), and vertices moved off
+/// their interfaces until the faces lie on them (ChordCorrection). What was free of self-intersections stays so. Throws
+/// std::runtime_error when the tetrahedralisation fails.
 MeshResult MeshInterfaces(
   const IndicatorSet& indicators, std::vector<Particle> particles, const MeshOptions& options, const Monitor& monitor);
 }

@@ -39,9 +39,34 @@ public:
     return i >= this->First[0] && i <= this->Last[0] && j >= this->First[1] && j <= this->Last[1] &&
       k >= this->First[2] && k <= this->Last[2];
   }
-  float Value(Index i, Index j, Index k) const
+  /// The 4^3 samples around the cell at (i, j, k), x fastest. As IndicatorSet has it: the block's outermost samples go
+  /// on beyond it where the cell is inside, and elsewhere there is its value outside.
+  template <typename Samples>
+  void SamplesAround(Index i, Index j, Index k, Samples& samples) const
   {
-    return this->Covers(i, j, k) ? this->Inner(i, j, k) : float(this->Block.Outside);
+    if (!this->Covers(i, j, k) || !this->Covers(i + 1, j + 1, k + 1))
+    {
+      samples.fill(float(this->Block.Outside));
+      return;
+    }
+    const auto clamped = [this](int axis, Index at) { return std::clamp(at, this->First[axis], this->Last[axis]); };
+    const bool inner = this->Covers(i - 1, j - 1, k - 1) && this->Covers(i + 2, j + 2, k + 2);
+    float* to = samples.data();
+    for (Index z = k - 1; z <= k + 2; ++z)
+    {
+      for (Index y = j - 1; y <= j + 2; ++y)
+      {
+        if (inner && this->Shared)
+        {
+          to = std::copy_n(this->Sample(i - 1, y, z), 4, to);
+          continue;
+        }
+        for (Index x = i - 1; x <= i + 2; ++x)
+        {
+          *to++ = this->Inner(clamped(0, x), clamped(1, y), clamped(2, z));
+        }
+      }
+    }
   }
   /// Takes part in slice k, whose largest values and their materials are these; as the first it takes its place in any
   /// case.
@@ -130,24 +155,53 @@ struct Share
   Index Parts;
 };
 
-/// The trilinear interpolant of a cell's corners (x fastest) in the middle of each part.
-void Interpolate(const std::array<float, 8>& f, std::array<float, Parts * Parts * Parts>& values)
+constexpr int Support = 4;                                          // samples of the spline along each axis
+using CellSamples = std::array<float, Support * Support * Support>; // x fastest, from the one before the cell
+using CellParts = std::array<float, Parts * Parts * Parts>;
+
+/// The Catmull-Rom weights of the samples in the middle of each part, as IndicatorSet has them.
+constexpr std::array<std::array<float, Support>, Parts> SplineWeights()
 {
-  const auto middle = [](int part) { return (float(part) + 0.5f) / Parts; };
+  std::array<std::array<float, Support>, Parts> weights{};
+  for (int part = 0; part < Parts; ++part)
+  {
+    const float t = (float(part) + 0.5f) / Parts, t2 = t * t, t3 = t2 * t;
+    weights[part] = { -0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1.0f, -1.5f * t3 + 2.0f * t2 + 0.5f * t,
+      0.5f * t3 - 0.5f * t2 };
+  }
+  return weights;
+}
+
+/// The spline in the middle of each part of the cell, one axis after another.
+void Interpolate(const CellSamples& samples, CellParts& values)
+{
+  static constexpr auto weights = SplineWeights();
+  constexpr int slice = Support * Support;
   for (int k = 0; k < Parts; ++k)
   {
+    std::array<float, slice> alongZ{};
+    for (int s = 0; s < Support; ++s)
+    {
+#pragma omp simd
+      for (int n = 0; n < slice; ++n)
+      {
+        alongZ[n] += weights[k][s] * samples[n + slice * s];
+      }
+    }
     for (int j = 0; j < Parts; ++j)
     {
-      const float v = middle(j), w = middle(k);
-      const auto alongYZ = [&](int x)
+      std::array<float, Support> alongY{};
+      for (int s = 0; s < Support; ++s)
       {
-        const float low = f[x] + v * (f[x + 2] - f[x]), high = f[x + 4] + v * (f[x + 6] - f[x + 4]);
-        return low + w * (high - low);
-      };
-      const float left = alongYZ(0), right = alongYZ(1);
+        for (int n = 0; n < Support; ++n)
+        {
+          alongY[n] += weights[j][s] * alongZ[n + Support * s];
+        }
+      }
       for (int i = 0; i < Parts; ++i)
       {
-        values[i + Parts * (j + Parts * k)] = left + middle(i) * (right - left);
+        const auto& w = weights[i];
+        values[i + Parts * (j + Parts * k)] = w[0] * alongY[0] + w[1] * alongY[1] + w[2] * alongY[2] + w[3] * alongY[3];
       }
     }
   }
@@ -160,18 +214,15 @@ void CutCell(const std::vector<WorkingField>& fields, const std::array<int, 8>& 
   std::array<int, 8> distinct = materials;
   std::sort(distinct.begin(), distinct.end());
   const auto end = std::unique(distinct.begin(), distinct.end());
-  std::array<float, count> largest, values;
+  CellSamples samples;
+  CellParts largest, values;
   std::array<std::int32_t, count> winners;
   largest.fill(std::numeric_limits<float>::lowest());
   winners.fill(distinct[0]);
   for (auto material = distinct.begin(); material != end; ++material)
   {
-    std::array<float, 8> corners;
-    for (int c = 0; c < 8; ++c)
-    {
-      corners[c] = fields[*material].Value(i + (c & 1), j + ((c >> 1) & 1), k + (c >> 2));
-    }
-    Interpolate(corners, values);
+    fields[*material].SamplesAround(i, j, k, samples);
+    Interpolate(samples, values);
 #pragma omp simd
     for (int part = 0; part < count; ++part)
     {

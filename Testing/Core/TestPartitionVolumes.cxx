@@ -32,6 +32,22 @@ TEST(PartitionVolumes, OfABallAreItsOwn)
   EXPECT_NEAR(volumes[0] + volumes[1], box, 1e-3 * box);
 }
 
+TEST(PartitionVolumes, OfASmallBallAreThoseOfItsSpline)
+{
+  // 74 voxels. The trilinear interpolant, which lies below the spline wherever that is convex, holds 9 % less.
+  const Lattice frame = MakeLattice(16, 16, 16);
+  const Vec3 centre(7.3, 7.6, 7.45);
+  const SampledFields fields(frame, { Not(Ball(centre, 2.6)), Ball(centre, 2.6) });
+  constexpr int fine = 150;
+  Index inside = 0;
+  for (Index n = 0; n < fine * fine * fine; ++n)
+  {
+    const Vec3 x(double(n % fine) + 0.5, double(n / fine % fine) + 0.5, double(n / (fine * fine)) + 0.5);
+    inside += fields->LargestMaterial(x / 10.0) == 1;
+  }
+  EXPECT_NEAR(PartitionVolumes(BlocksOf(*fields), frame)[1], double(inside) / 1000.0, 0.5);
+}
+
 TEST(PartitionVolumes, NeighboursFillWhatAMaterialLeaves)
 {
   // Both say that they end half a voxel before they meet: each holds its half all the same.
