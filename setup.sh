@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 packages=(
   g++ cmake ninja-build                                            # build
   paraview paraview-dev python3-paraview                           # ParaView 5.11 with its own VTK
-  libtet1.5-dev libeigen3-dev zlib1g-dev libgtest-dev              # libraries of our own
+  libcgal-dev libtet1.5-dev libeigen3-dev zlib1g-dev libgtest-dev              # libraries of our own
   libopenmpi-dev libutfcpp-dev libdouble-conversion-dev libexpat1-dev liblz4-dev liblzma-dev libtbb-dev  # VTK's packages ask
   libpng-dev libjpeg-dev libtiff-dev python3-dev                   #   for the development files of what they were built with
   libqt5opengl5-dev qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools libqt5svg5-dev # help pages of the plugin

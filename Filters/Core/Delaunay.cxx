@@ -1,113 +1,98 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Delaunay.h"
 
-#define TETLIBRARY
-#include <tetgen.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_cell_base_with_info_3.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 
 #include <limits>
-#include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace LabelMesh
 {
 namespace
 {
-std::string Reason(int code)
+constexpr std::size_t PointsPerStep = 4096; // a few milliseconds: how long an abort may wait
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Cells = CGAL::Triangulation_data_structure_3<CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Kernel>,
+  CGAL::Triangulation_cell_base_with_info_3<std::int32_t, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>;
+using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Cells>;
+
+using NumberedPoint = std::pair<Point, std::int32_t>;
+
+/// Random rounds, each along a space-filling curve.
+void OrderForInsertion(std::vector<NumberedPoint>& points)
 {
-  switch (code)
+  using Positions = CGAL::First_of_pair_property_map<NumberedPoint>;
+  CGAL::spatial_sort(points.begin(), points.end(), CGAL::Spatial_sort_traits_adapter_3<Kernel, Positions>(Positions()));
+}
+
+void Insert(const std::vector<NumberedPoint>& points, const Monitor& monitor, Triangulation& triangulation)
+{
+  Triangulation::Cell_handle near; // the last point's: the walk to the next one starts there
+  for (std::size_t n = 0; n < points.size(); ++n)
   {
-    case 1:
-      return "out of memory";
-    case 2:
-      return "an internal error";
-    case 3:
-      return "a self-intersection";
-    case 4:
-      return "a feature below its tolerance";
-    case 5:
-      return "two nearly coincident facets";
-    case 10:
-      return "an input error";
-    default:
-      return "error " + std::to_string(code);
+    if (n % PointsPerStep == 0)
+    {
+      monitor.Step(double(n) / double(points.size()));
+    }
+    const auto before = triangulation.number_of_vertices();
+    const Triangulation::Vertex_handle vertex = triangulation.insert(points[n].first, near);
+    if (triangulation.number_of_vertices() > before) // otherwise it coincides with another one
+    {
+      vertex->info() = points[n].second;
+    }
+    near = vertex->cell();
   }
 }
+}
 
-bool SpansSpace(const std::vector<Vec3>& points)
+Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points, const Monitor& monitor)
 {
-  // TetGen prints and throws on planar input; four points that span a volume are all that is asked for.
-  std::size_t n = 1;
-  const auto next = [&](auto&& independent)
+  // A point has about 6.8 tetrahedra, which have numbers of 32 bits.
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 16;
+  if (points.size() > most)
   {
-    while (n < points.size() && !independent(points[n] - points[0]))
-    {
-      ++n;
-    }
-    return n < points.size();
-  };
-  Vec3 first, normal;
-  return points.size() >= 4 &&
-    next(
-      [&](const Vec3& v)
-      {
-        first = v;
-        return v.squaredNorm() > 0;
-      }) &&
-    next(
-      [&](const Vec3& v)
-      {
-        normal =
-          Vec3(first[1] * v[2] - first[2] * v[1], first[2] * v[0] - first[0] * v[2], first[0] * v[1] - first[1] * v[0]);
-        return normal.squaredNorm() > 1e-24 * first.squaredNorm() * v.squaredNorm();
-      }) &&
-    next([&](const Vec3& v) { return std::abs(normal.dot(v)) > 1e-12 * normal.norm() * v.norm(); });
-}
-}
-
-Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points)
-{
-  static std::mutex tetgenIsNotThreadSafe;
+    throw std::runtime_error("cannot tetrahedralise " + std::to_string(points.size()) + " points: the most are " +
+      std::to_string(most) + "; make the target lengths larger");
+  }
+  std::vector<NumberedPoint> numbered;
+  numbered.reserve(points.size());
+  for (const Vec3& x : points)
+  {
+    numbered.emplace_back(Point(x[0], x[1], x[2]), std::int32_t(numbered.size()));
+  }
+  OrderForInsertion(numbered);
+  Triangulation triangulation;
+  Insert(numbered, monitor, triangulation);
   Tetrahedralization result;
-  if (!SpansSpace(points))
+  if (triangulation.dimension() < 3)
   {
     return result;
   }
-  if (points.size() > std::size_t(std::numeric_limits<int>::max() / 16))
+  for (const Triangulation::Cell_handle cell : triangulation.all_cell_handles())
   {
-    throw std::runtime_error("too many points for TetGen: " + std::to_string(points.size()));
-  }
-  tetgenio input, output;
-  input.numberofpoints = int(points.size());
-  input.pointlist = new REAL[3 * points.size()];
-  for (std::size_t n = 0; n < points.size(); ++n)
-  {
-    for (int a = 0; a < 3; ++a)
+    cell->info() = triangulation.is_infinite(cell) ? -1 : std::int32_t(result.Corners.size());
+    if (cell->info() >= 0)
     {
-      input.pointlist[3 * n + a] = points[n][a];
+      result.Corners.push_back(
+        { cell->vertex(0)->info(), cell->vertex(1)->info(), cell->vertex(2)->info(), cell->vertex(3)->info() });
     }
   }
-  // Q quiet, n neighbours, N F: no copies of points and faces.
-  char switches[] = "QnNF";
-  try
+  result.Neighbors.reserve(result.Corners.size());
+  for (const Triangulation::Cell_handle cell : triangulation.finite_cell_handles())
   {
-    const std::lock_guard<std::mutex> lock(tetgenIsNotThreadSafe);
-    tetrahedralize(switches, &input, &output);
-  }
-  catch (int code)
-  {
-    throw std::runtime_error(
-      "TetGen could not tetrahedralise " + std::to_string(points.size()) + " points: " + Reason(code));
-  }
-  result.Corners.resize(output.numberoftetrahedra);
-  result.Neighbors.resize(output.numberoftetrahedra);
-  for (int t = 0; t < output.numberoftetrahedra; ++t)
-  {
-    for (int c = 0; c < 4; ++c)
-    {
-      result.Corners[t][c] = output.tetrahedronlist[t * output.numberofcorners + c];
-      result.Neighbors[t][c] = output.neighborlist[4 * t + c];
-    }
+    result.Neighbors.push_back(
+      { cell->neighbor(0)->info(), cell->neighbor(1)->info(), cell->neighbor(2)->info(), cell->neighbor(3)->info() });
   }
   return result;
 }

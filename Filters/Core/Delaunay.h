@@ -3,6 +3,7 @@
 #ifndef LabelMesh_Core_Delaunay_h
 #define LabelMesh_Core_Delaunay_h
 
+#include "Monitor.h"
 #include "Types.h"
 
 #include <vector>
@@ -18,9 +19,12 @@ struct Tetrahedralization
   Index Size() const { return Index(this->Corners.size()); }
 };
 
-/// The Delaunay tetrahedra of the points, by TetGen. Points may be fewer than four or all in a plane: no tetrahedra
-/// then. One at a time per process: TetGen is not thread-safe. Throws std::runtime_error with TetGen's reason.
-Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points);
+/// The Delaunay tetrahedra of the points, by CGAL. Points may be fewer than four or all in a plane: no tetrahedra then;
+/// of points that coincide one is used. Five and more points on a sphere have more than one Delaunay
+/// tetrahedralisation: which one this is depends on the points alone (CGAL's symbolic perturbation), and no tetrahedron
+/// is flat. Positions must be finite. Safe to call from many threads. Throws Aborted when the monitor says so, within a
+/// fraction of a second, and std::runtime_error when there are too many points.
+Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points, const Monitor& monitor = {});
 }
 
 #endif

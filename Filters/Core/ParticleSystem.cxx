@@ -31,19 +31,19 @@ std::uint64_t MortonCode(const Lattice& frame, const Vec3& x)
   return code;
 }
 
-/// Orders the particles from `first` on along a space-filling curve, so that neighbours are near in memory too.
-/// Returns the new numbers of all.
-std::vector<std::int32_t> SortInSpace(const Lattice& frame, std::vector<Particle>& particles, Index first)
+/// Orders the particles in [first, last) along a space-filling curve, so that neighbours are near in memory too, and
+/// the boxes of a PointTree small. Returns the new numbers of all.
+std::vector<std::int32_t> SortInSpace(const Lattice& frame, std::vector<Particle>& particles, Index first, Index last)
 {
   std::vector<std::pair<std::uint64_t, Index>> order;
-  order.reserve(particles.size() - first);
-  for (Index n = first; n < Index(particles.size()); ++n)
+  order.reserve(last - first);
+  for (Index n = first; n < last; ++n)
   {
     order.emplace_back(MortonCode(frame, particles[n].Position), n);
   }
   std::sort(order.begin(), order.end());
   std::vector<std::int32_t> numbers(particles.size());
-  std::iota(numbers.begin(), numbers.begin() + first, 0);
+  std::iota(numbers.begin(), numbers.end(), 0);
   std::vector<Particle> sorted;
   sorted.reserve(order.size());
   for (const auto& [code, n] : order)
@@ -54,6 +54,22 @@ std::vector<std::int32_t> SortInSpace(const Lattice& frame, std::vector<Particle
   std::copy(sorted.begin(), sorted.end(), particles.begin() + first);
   return numbers;
 }
+
+/// The same for those of curves. They come one curve after another, the longest first, each somewhere else: in that
+/// order the boxes of a PointTree over thousands of curves all overlap, and a look-up opens most of them.
+void SortInSpace(const Lattice& frame, CurveSamples& samples)
+{
+  const std::vector<std::int32_t> zeroCells = SortInSpace(frame, samples.Particles, 0, samples.ZeroCells);
+  const std::vector<std::int32_t> oneCells =
+    SortInSpace(frame, samples.Particles, samples.ZeroCells, Index(samples.Particles.size()));
+  for (Curve& curve : samples.Curves)
+  {
+    for (Index& n : curve.Particles)
+    {
+      n = oneCells[zeroCells[n]];
+    }
+  }
+}
 }
 
 SampleResult SampleCells(
@@ -62,6 +78,7 @@ SampleResult SampleCells(
   SampleResult result;
   const JunctionNetwork network = TraceJunctions(indicators, monitor.Part(0.0, 0.1));
   CurveSamples curves = SampleCurves(network, indicators, targetLength);
+  SortInSpace(indicators.Working(), curves);
   const Index fixed = Index(curves.Particles.size());
   result.OpenCurveEnds = network.OpenEnds;
   result.Particles = std::move(curves.Particles);
@@ -75,7 +92,7 @@ SampleResult SampleCells(
   for (int done = 0; done < options.Sweeps;)
   {
     monitor.Step(0.2 + 0.8 * done / options.Sweeps, "Relaxing particles");
-    candidates.Renumber(SortInSpace(indicators.Working(), result.Particles, fixed));
+    candidates.Renumber(SortInSpace(indicators.Working(), result.Particles, fixed, Index(result.Particles.size())));
     std::vector<Index> moving(result.Particles.size() - fixed);
     std::iota(moving.begin(), moving.end(), fixed);
     RelaxOptions relax;

@@ -199,7 +199,7 @@ InterfaceComplex BuildInterface(const IndicatorSet& indicators, const std::vecto
   }
   InterfaceComplex complex;
   monitor.Step(0.0, "Tetrahedralising");
-  complex.Tetrahedra = DelaunayTetrahedra(points);
+  complex.Tetrahedra = DelaunayTetrahedra(points, monitor.Part(0.0, 0.5));
   monitor.Step(0.5, "Labelling tetrahedra");
   complex.Labels = LabelTetrahedra(indicators, particles, complex.Tetrahedra);
   const MaterialId outside = indicators.Background() != NoMaterial ? indicators.Background() : MaterialId(0);

@@ -3,12 +3,16 @@
 #include "LocalRepair.h"
 #include "ManifoldLabels.h"
 #include "MeshInterfaces.h"
+#include "Parallel.h"
 #include "ParticleSystem.h"
 #include "TetraLabeling.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <vtkSMPTools.h>
+
+#include <algorithm>
 #include <map>
 
 using namespace LabelMesh;
@@ -94,6 +98,96 @@ TEST(Delaunay, OfTooFewOrFlatPointsIsEmpty)
   EXPECT_EQ(
     DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(3, 1, 0) }).Size(), 0);
   EXPECT_EQ(DelaunayTetrahedra({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 1) }).Size(), 1);
+}
+
+namespace
+{
+/// The corners of each tetrahedron as positions, in an order that does not depend on that of the points.
+std::vector<std::array<std::array<double, 3>, 4>> Sorted(const std::vector<Vec3>& points, const Tetrahedralization& t)
+{
+  std::vector<std::array<std::array<double, 3>, 4>> tetrahedra(t.Corners.size());
+  for (std::size_t n = 0; n < tetrahedra.size(); ++n)
+  {
+    for (int c = 0; c < 4; ++c)
+    {
+      const Vec3& x = points[t.Corners[n][c]];
+      tetrahedra[n][c] = { x[0], x[1], x[2] };
+    }
+    std::sort(tetrahedra[n].begin(), tetrahedra[n].end());
+  }
+  std::sort(tetrahedra.begin(), tetrahedra.end());
+  return tetrahedra;
+}
+
+std::vector<Vec3> LatticePoints(int side)
+{
+  std::vector<Vec3> points;
+  for (int n = 0; n < side * side * side; ++n)
+  {
+    points.emplace_back(n % side, n / side % side, n / (side * side));
+  }
+  return points;
+}
+}
+
+TEST(Delaunay, OfALatticeDependsOnThePointsAloneAndHasNoFlatTetrahedra)
+{
+  // Eight points on each of 125 spheres, and 36 in each plane.
+  std::vector<Vec3> points = LatticePoints(6);
+  const Tetrahedralization t = DelaunayTetrahedra(points);
+  double volume = 0.0;
+  for (const auto& c : t.Corners)
+  {
+    const Vec3& x = points[c[0]];
+    const double six = std::abs((points[c[1]] - x).cross(points[c[2]] - x).dot(points[c[3]] - x));
+    EXPECT_GE(six, 1.0);
+    volume += six / 6.0;
+  }
+  EXPECT_NEAR(volume, 125.0, 1e-9);
+  const auto expected = Sorted(points, t);
+  std::reverse(points.begin(), points.end());
+  std::swap(points[10], points[100]);
+  EXPECT_EQ(Sorted(points, DelaunayTetrahedra(points)), expected);
+}
+
+TEST(Delaunay, UsesOneOfPointsThatCoincide)
+{
+  std::vector<Vec3> points = LatticePoints(3);
+  const auto expected = Sorted(points, DelaunayTetrahedra(points));
+  points.insert(points.end(), { points[0], points[13], points[13] });
+  EXPECT_EQ(Sorted(points, DelaunayTetrahedra(points)), expected);
+}
+
+TEST(Delaunay, StopsWhenItsMonitorSaysSo)
+{
+  const std::vector<Vec3> points = LatticePoints(24);
+  int calls = 0;
+  EXPECT_THROW(DelaunayTetrahedra(points, Monitor([&](double, const std::string&) { return ++calls == 3; })), Aborted);
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(Delaunay, MayBeAskedForByManyThreads)
+{
+  const std::vector<Vec3> points = LatticePoints(8);
+  const Tetrahedralization expected = DelaunayTetrahedra(points);
+  std::vector<Tetrahedralization> found(16);
+  vtkSMPTools::LocalScope(vtkSMPTools::Config(4, "STDThread", false),
+    [&]
+    {
+      ParallelFor(0, Index(found.size()), 1,
+        [&](Index first, Index last)
+        {
+          for (Index n = first; n < last; ++n)
+          {
+            found[n] = DelaunayTetrahedra(points);
+          }
+        });
+    });
+  for (const Tetrahedralization& t : found)
+  {
+    EXPECT_EQ(t.Corners, expected.Corners);
+    EXPECT_EQ(t.Neighbors, expected.Neighbors);
+  }
 }
 
 TEST(TetraLabeling, CircumcentreIsEquidistant)

@@ -184,6 +184,50 @@ TEST(SampleCells, SameBitsForAnyNumberOfThreads)
   }
 }
 
+TEST(SampleCells, ParticlesOfCurvesAreOrderedInSpaceAndCurvesFollowThem)
+{
+  // The Voronoi cells of 64 sites, with some two hundred curves: 64 particles in a row are near each other, as in
+  // any other part of a space-filling curve, so that what is looked up in a PointTree costs the same for any number.
+  const Lattice frame = MakeLattice(40, 40, 40);
+  std::vector<Field> sites;
+  for (int n = 0; n < 64; ++n)
+  {
+    sites.push_back(Site(Vec3(n % 4 * 10 + 5 + 3 * std::sin(12.9 * n), n / 4 % 4 * 10 + 5 + 3 * std::sin(78.2 * n),
+      n / 16 * 10 + 5 + 3 * std::sin(3.7 * n))));
+  }
+  const SampledFields fields(frame, sites);
+  SampleOptions options;
+  options.Sweeps = 1;
+  const SampleResult result = SampleCells(*fields, Grid<float>(frame, 1.0f), options, Monitor());
+  const Index zeroCells = result.CellCounts[0], fixed = zeroCells + result.CellCounts[1];
+  ASSERT_GT(result.Curves.size(), 100u);
+  ASSERT_GT(fixed - zeroCells, 1000);
+  constexpr Index row = 64;
+  double volume = 0.0;
+  for (Index first = zeroCells; first + row <= fixed; first += row)
+  {
+    Vec3 low = result.Particles[first].Position, high = low;
+    for (Index n = first; n < first + row; ++n)
+    {
+      EXPECT_EQ(result.Particles[n].CellDimension, 1);
+      low = low.cwiseMin(result.Particles[n].Position);
+      high = high.cwiseMax(result.Particles[n].Position);
+    }
+    volume += (high - low).prod();
+  }
+  EXPECT_LT(volume, 4.0 * 39 * 39 * 39); // one curve after another: 13 times
+  for (const Curve& curve : result.Curves)
+  {
+    for (std::size_t n = 0; n < curve.Particles.size(); ++n)
+    {
+      const Particle& p = result.Particles[curve.Particles[n]];
+      EXPECT_TRUE(std::all_of(
+        curve.Materials.begin(), curve.Materials.end(), [&p](MaterialId m) { return p.Materials.Contains(m); }));
+      EXPECT_TRUE(n == 0 || (p.Position - result.Particles[curve.Particles[n - 1]].Position).norm() < 2.0);
+    }
+  }
+}
+
 TEST(SampleCells, StopsWhenItsMonitorSaysSo)
 {
   const SampledFields fields = TwoBalls();
