@@ -17,13 +17,13 @@ constexpr double GiB = 1024.0 * 1024.0 * 1024.0;
 constexpr double Base = 50.0 * 1024.0 * 1024.0;
 constexpr double PerBlockSample = 17.0, PerWorkingSample = 8.0, PerFace = 1000.0;
 
-/// Samples of a box after resampling, with its padding.
-double SamplesOf(const Box& box, double resampling, int padding)
+/// Samples of a box after resampling, with its padding along each axis.
+double SamplesOf(const Box& box, double resampling, const std::array<int, 3>& padding)
 {
   double samples = 1.0;
   for (int a = 0; a < 3; ++a)
   {
-    samples *= resampling * (box[2 * a + 1] - box[2 * a] + 1) + 2.0 * padding;
+    samples *= resampling * (box[2 * a + 1] - box[2 * a] + 1) + 2.0 * padding[a];
   }
   return samples;
 }
@@ -54,13 +54,16 @@ double EstimateMemory(const LabelImage& image, Label background, int padding, do
 {
   const Lattice samples = image.Frame.Samples();
   const Box whole = { 0, samples.Dims[0] - 1, 0, samples.Dims[1] - 1, 0, samples.Dims[2] - 1 };
-  const double working = SamplesOf(whole, resampling, padding);
+  const double working = SamplesOf(whole, resampling, { padding, padding, padding });
+  const std::array<int, 3> reach = { BlockReach(samples, 0, padding), BlockReach(samples, 1, padding),
+    BlockReach(samples, 2, padding) };
   double blocks = working;
   const std::vector<Box> boxes = BoxesOf(image.Ids, samples, int(image.Labels.size()));
   for (std::size_t id = 0; id < boxes.size(); ++id)
   {
     const bool occurs = boxes[id][0] <= boxes[id][1];
-    blocks += occurs && image.Labels[id] != background ? SamplesOf(boxes[id], resampling, padding) : 0.0;
+    blocks +=
+      occurs && image.Labels[id] != background ? std::min(SamplesOf(boxes[id], resampling, reach), working) : 0.0;
   }
   return Base + PerBlockSample * blocks + PerWorkingSample * working +
     PerFace * resampling * resampling * FacesBetweenLabels(image, background);

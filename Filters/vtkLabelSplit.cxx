@@ -202,15 +202,17 @@ void Resample(LabelImage& image, double factor)
 }
 
 /// The box of a material's block, relative to the first source sample. Where the material reaches the border it goes on
-/// for `layers` samples.
+/// for `layers` samples. It lies within the working grid.
 Box BlockBox(const Box& material, const Lattice& source, bool background, int padding, int layers)
 {
   Box box;
   for (int a = 0; a < 3; ++a)
   {
     const int first = background ? 0 : material[2 * a], last = background ? source.Dims[a] - 1 : material[2 * a + 1];
-    box[2 * a] = first - padding - (first == 0 ? layers : 0);
-    box[2 * a + 1] = last + padding + (last == source.Dims[a] - 1 ? layers : 0);
+    const int reach = background ? padding : BlockReach(source, a, padding);
+    const int most = padding + layers;
+    box[2 * a] = std::max(first - reach - (first == 0 ? layers : 0), -most);
+    box[2 * a + 1] = std::min(last + reach + (last == source.Dims[a] - 1 ? layers : 0), source.Dims[a] - 1 + most);
   }
   return box;
 }

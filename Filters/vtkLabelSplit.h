@@ -14,7 +14,8 @@
  *  - field data of the collection: Labels (int64), MaterialNames (string), MaterialColors (float64 x 3),
  * BackgroundLabel (int64), SourceExtent (int32 x 6), SourceOrigin (float64 x 3), SourceDirection (float64 x 9),
  * VoxelSize (float64 x 3: the spacing), Padding (int32), Border (int32: 1, with a flat border alone). A block reaches
- * Padding samples beyond its material; the background's covers the whole working grid, which is the source grid with
+ * Padding samples beyond its material, and where the spacing is small 5 voxels (geometric means of the spacings), but
+ * not beyond the working grid; the background's covers the whole working grid, which is the source grid with
  * Padding samples around it. The same grid is published for filters that make images of it.
  *
  * Method: one pass over the labels finds the materials and their boxes, one pass over each box makes its mask. Space

@@ -17,8 +17,10 @@ namespace
 // In target lengths of the site.
 constexpr double PatchRadius = 5.0; // particles that are tetrahedralised
 constexpr double LargestPatch = 30.0;
-constexpr double CoreRadius = 2.5; // faces with a vertex within are judged
-constexpr double MoveRadius = 2.2; // particles within may move
+constexpr double PatchGrowth = 1.4;
+constexpr double CoreRadius = 2.5;                     // faces with a vertex within are judged
+constexpr double MoveRadius = 2.2;                     // particles within may move
+constexpr double InnerPart = CoreRadius / PatchRadius; // of the radius of a patch: what is not at its rim
 
 constexpr double SameJunction = 0.5;   // as in the sampling of curves
 constexpr double MergedJunction = 0.8; // two particles of curves this near may become one to mend a triangle
@@ -26,6 +28,7 @@ constexpr double MergedJunction = 0.8; // two particles of curves this near may 
 // Where lengths are shortest they grow fast all around: fewer particles would be the site without its surroundings, and
 // the tetrahedra at the rim of the patch would be taken for its faces.
 constexpr std::size_t SmallestPatch = 150;
+constexpr std::size_t MostOfAPatch = 1000; // particles; a patch with as many grows no more
 
 constexpr int RepairSweeps = 12;
 
@@ -118,9 +121,19 @@ bool LocalRepair::Mend(const Fault& fault, Placing placing)
       return false;
     }
   }
-  const Patch patch = this->PatchAround(fault);
-  const Judgement before = this->Judge(patch, {});
-  if (before.Badness == 0.0 || !this->AreThoseOfTheWhole(patch, before.Faces))
+  Patch patch = this->PatchAround(fault, PatchRadius);
+  Judgement before = this->Judge(patch, {});
+  bool same = this->AreThoseOfTheWhole(patch, before.Faces);
+  // Where particles are missing, the empty balls of the faces are large.
+  for (double radius = PatchGrowth * patch.Radius;
+       !same && radius < LargestPatch && patch.Ids.size() < MostOfAPatch && this->IsWorthMore(fault);
+       radius *= PatchGrowth)
+  {
+    patch = this->PatchAround(fault, radius);
+    before = this->Judge(patch, {});
+    same = this->AreThoseOfTheWhole(patch, before.Faces);
+  }
+  if (before.Badness == 0.0 || !same)
   {
     return false;
   }
@@ -176,7 +189,17 @@ bool LocalRepair::Mend(const Fault& fault, Placing placing)
   return best < before.Badness;
 }
 
-LocalRepair::Patch LocalRepair::PatchAround(const Fault& fault) const
+bool LocalRepair::IsWorthMore(const Fault& fault) const
+{
+  if (fault.Vertices.size() < 3)
+  {
+    return fault.Vertices.size() == 2;
+  }
+  const std::vector<Index>& v = fault.Vertices;
+  return IsWrong(this->Complex.AllVertices(), { { v[0], v[1], v[2] }, fault.Materials });
+}
+
+LocalRepair::Patch LocalRepair::PatchAround(const Fault& fault, double leastRadius) const
 {
   Patch patch;
   patch.Centre.setZero();
@@ -185,8 +208,9 @@ LocalRepair::Patch LocalRepair::PatchAround(const Fault& fault) const
     patch.Centre += this->Complex.Vertex(v).Position / double(fault.Vertices.size());
     patch.Length += this->Complex.Vertex(v).TargetLength / double(fault.Vertices.size());
   }
-  for (double radius = PatchRadius; radius < LargestPatch && patch.Ids.size() < SmallestPatch; radius *= 1.4)
+  for (double radius = leastRadius; radius < LargestPatch && patch.Ids.size() < SmallestPatch; radius *= PatchGrowth)
   {
+    patch.Radius = radius;
     patch.Ids.clear();
     this->Grid.VisitWithin(patch.Centre, radius * patch.Length, 0.0,
       [&](Index n, double)
@@ -198,18 +222,20 @@ LocalRepair::Patch LocalRepair::PatchAround(const Fault& fault) const
       });
   }
   std::sort(patch.Ids.begin(), patch.Ids.end());
-  const double reach = CoreRadius * patch.Length;
+  const double reach = CoreRadius * patch.Length, inner = InnerPart * patch.Radius * patch.Length;
   for (const Index n : patch.Ids)
   {
     patch.Particles.push_back(this->Complex.Vertex(n));
-    patch.Core.push_back((this->Complex.Vertex(n).Position - patch.Centre).squaredNorm() < reach * reach);
+    const double squared = (this->Complex.Vertex(n).Position - patch.Centre).squaredNorm();
+    patch.Core.push_back(squared < reach * reach);
+    patch.Inner.push_back(squared < inner * inner);
   }
   return patch;
 }
 
 LocalRepair::Judgement LocalRepair::Judge(const Patch& patch, const std::vector<Pair>& wantedPairs) const
 {
-  const InterfaceComplex complex = BuildInterface(this->Indicators, patch.Particles, patch.Core);
+  const InterfaceComplex complex = BuildInterface(this->Indicators, patch.Particles, patch.Inner);
   Judgement result;
   for (const InterfaceTriangle& face : complex.Faces)
   {
@@ -282,6 +308,7 @@ LocalRepair::Patch LocalRepair::Without(const Patch& patch, Index v)
   variant.Particles.erase(variant.Particles.begin() + v);
   variant.Ids.erase(variant.Ids.begin() + v);
   variant.Core.erase(variant.Core.begin() + v);
+  variant.Inner.erase(variant.Inner.begin() + v);
   return variant;
 }
 
@@ -295,6 +322,7 @@ void LocalRepair::AppendWith(
     variants.back().Particles.push_back(added);
     variants.back().Ids.push_back(-1);
     variants.back().Core.push_back(1);
+    variants.back().Inner.push_back(1);
   }
 }
 

@@ -21,9 +21,10 @@ std::vector<Fault> FindFaults(const SurfaceComplex& complex, MaterialId outside 
 
 /// Mends faults one after another, each as a transaction: the particles within a few target lengths are
 /// tetrahedralised by themselves (the empty balls of interface faces are small, so that the faces around the fault are
-/// those of the whole: checked), changes are tried (relaxing, deleting a vertex, joining two, sliding one along its
-/// curve, merging two of curves, adding one on a surface or a curve, uniting a junction with one closer than half a
-/// target length), and the best one is kept if the faces around have become better and fit the rest of the mesh.
+/// those of the whole: checked; where they are not since particles are missing, more are taken), changes are tried
+/// (relaxing, deleting a vertex, joining two, sliding one along its curve, merging two of curves, adding one on a
+/// surface or a curve, uniting a junction with one closer than half a target length), and the best one is kept if the
+/// faces around have become better and fit the rest of the mesh.
 class LocalRepair
 {
 public:
@@ -45,10 +46,12 @@ private:
   struct Patch
   {
     std::vector<Particle> Particles;
-    std::vector<Index> Ids; ///< of the whole; -1: new
-    std::vector<char> Core; ///< whether the faces at it are judged and replaced
+    std::vector<Index> Ids;  ///< of the whole; -1: new
+    std::vector<char> Core;  ///< whether the faces at it are judged and replaced
+    std::vector<char> Inner; ///< whether it is far from the rim, so that the tetrahedra at it may be relabelled
     Vec3 Centre;
-    double Length = 0.0;
+    double Radius = 0.0; ///< in Lengths
+    double Length = 0.0; ///< target length of the site
   };
   /// The faces at the core of a patch, in the patch's numbers, and how bad they are.
   struct Judgement
@@ -66,7 +69,11 @@ private:
     std::vector<InterfaceTriangle> Faces;
   };
 
-  Patch PatchAround(const Fault& fault) const;
+  /// Whether a fault is worth a larger patch where the usual one has not the faces of the whole: wrong faces and
+  /// non-manifold edges are.
+  bool IsWorthMore(const Fault& fault) const;
+  /// The radius is in target lengths of the site. It is larger where particles are few.
+  Patch PatchAround(const Fault& fault, double leastRadius) const;
   /// `wantedPairs`: pairs of materials that are missed where they are not there.
   Judgement Judge(const Patch& patch, const std::vector<std::array<MaterialId, 2>>& wantedPairs) const;
   /// Whether the faces are those that the whole mesh has there.

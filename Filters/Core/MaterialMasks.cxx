@@ -137,6 +137,13 @@ std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const
   return resampled;
 }
 
+int BlockReach(const Lattice& lattice, int axis, int padding)
+{
+  constexpr int bandVoxels = 5;
+  const int band = int(std::ceil(std::min(padding, bandVoxels) * lattice.VoxelSize() / lattice.Spacing[axis]));
+  return std::max(padding, band);
+}
+
 std::vector<Box> BoxesOf(const std::vector<MaterialId>& ids, const Lattice& lattice, int count)
 {
   const int limit = std::numeric_limits<int>::max();

@@ -24,6 +24,12 @@ std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const
 /// The box of every id below `count`, relative to the first sample of the lattice. One pass over the volume.
 std::vector<Box> BoxesOf(const std::vector<MaterialId>& ids, const Lattice& lattice, int count);
 
+/// Samples along an axis that a material's block should reach beyond it: `padding`, and where the spacing is small as
+/// many as hold the band of its distances (4 voxels) and one more voxel, unless the padding is fewer voxels than that.
+/// Fields that end within the band end in a jump, which passes for a surface where nothing of the materials around is
+/// left.
+int BlockReach(const Lattice& lattice, int axis, int padding);
+
 struct MaskOptions
 {
   double OpeningRadius = 0.0; ///< length; before the closing

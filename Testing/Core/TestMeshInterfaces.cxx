@@ -302,19 +302,32 @@ TEST(MeshInterfaces, JunctionsOfFourMaterialsConform)
   EXPECT_NEAR(sum, 0.0, 1e-6);
 }
 
+namespace
+{
+/// A ball of radius 15 whose particle 100 has another close by, the last one: their triangles are slivers.
+struct BallWithASliver
+{
+  SampledFields Fields{ Frame, { Not(Ball(Centre, 15)), Ball(Centre, 15) } };
+  std::vector<Particle> Particles =
+    SampleCells(*Fields, Grid<float>(Frame, 2.0f), SampleOptions(), Monitor()).Particles;
+
+  BallWithASliver()
+  {
+    Particle extra = this->Particles[100];
+    extra.Position = Centre + 15.0 * (extra.Position + Vec3(0.06, 0.04, -0.02) - Centre).normalized();
+    this->Particles.push_back(extra);
+  }
+};
+}
+
 TEST(LocalRepair, MendsASliverAndNothingElse)
 {
-  const SampledFields fields(Frame, { Not(Ball(Centre, 15)), Ball(Centre, 15) });
-  std::vector<Particle> particles =
-    SampleCells(*fields, Grid<float>(Frame, 2.0f), SampleOptions(), Monitor()).Particles;
-  // A particle too many, close to another: its triangles are slivers.
-  Particle extra = particles[100];
-  extra.Position = Centre + 15.0 * (extra.Position + Vec3(0.06, 0.04, -0.02) - Centre).normalized();
-  particles.push_back(extra);
-  SurfaceComplex complex({ particles, BuildInterface(*fields, particles).Faces });
+  const BallWithASliver ball;
+  const std::vector<Particle>& particles = ball.Particles;
+  SurfaceComplex complex({ particles, BuildInterface(*ball.Fields, particles).Faces });
   const std::vector<Fault> faults = FindFaults(complex);
   ASSERT_FALSE(faults.empty());
-  LocalRepair repair(*fields, complex, 0.5);
+  LocalRepair repair(*ball.Fields, complex, 0.5);
   EXPECT_TRUE(repair.Mend(faults.front()));
   EXPECT_TRUE(FindFaults(complex).empty());
   const InterfaceMesh mended = SurfaceComplex(complex).Compacted();
@@ -330,13 +343,9 @@ TEST(LocalRepair, MendsASliverAndNothingElse)
 
 TEST(LocalRepair, RefusesAPatchWhoseFacesAreNotThoseOfTheMesh)
 {
-  const SampledFields fields(Frame, { Not(Ball(Centre, 15)), Ball(Centre, 15) });
-  std::vector<Particle> particles =
-    SampleCells(*fields, Grid<float>(Frame, 2.0f), SampleOptions(), Monitor()).Particles;
-  Particle extra = particles[100];
-  extra.Position = Centre + 15.0 * (extra.Position + Vec3(0.06, 0.04, -0.02) - Centre).normalized();
-  particles.push_back(extra);
-  SurfaceComplex complex({ particles, BuildInterface(*fields, particles).Faces });
+  const BallWithASliver ball;
+  const std::vector<Particle>& particles = ball.Particles;
+  SurfaceComplex complex({ particles, BuildInterface(*ball.Fields, particles).Faces });
   const std::vector<Fault> faults = FindFaults(complex);
   ASSERT_FALSE(faults.empty());
   // A flip beside the sliver: what the tetrahedra around say is no longer what the mesh has.
@@ -347,7 +356,7 @@ TEST(LocalRepair, RefusesAPatchWhoseFacesAreNotThoseOfTheMesh)
   }
   ASSERT_TRUE(flipped);
   const std::vector<InterfaceTriangle> before = complex.AliveTriangles();
-  LocalRepair repair(*fields, complex, 0.5);
+  LocalRepair repair(*ball.Fields, complex, 0.5);
   EXPECT_FALSE(repair.Mend(faults.front()));
   const std::vector<InterfaceTriangle> after = complex.AliveTriangles();
   ASSERT_EQ(before.size(), after.size());

@@ -320,6 +320,28 @@ TEST(LabelSplit, TheBackgroundNeedNotOccur)
   EXPECT_EQ(Sum(split->GetOutput(), 2), 75);
 }
 
+TEST(LabelSplit, BlocksHoldTheBandOfTheirDistancesWhereTheSpacingIsSmall)
+{
+  // One voxel in the middle of others: the geometric mean of the spacings is 1, five of it are 20 and 2.5 samples.
+  const auto image = MakeImage({ 0, 60, 0, 60, 0, 60 },
+    [](int i, int j, int k) { return i == 30 && j == 30 && k == 30 ? 2 : (i == 3 && j == 3 && k == 3 ? 1 : 0); });
+  image->SetSpacing(0.25, 2, 2);
+  vtkNew<vtkLabelSplit> split;
+  split->SetInputData(image);
+  split->Update();
+  const auto expectExtent = [&split](unsigned int block, const std::array<int, 6>& extent)
+  {
+    int found[6];
+    vtkImageData::SafeDownCast(split->GetOutput()->GetPartition(block, 0))->GetExtent(found);
+    EXPECT_EQ((std::array<int, 6>{ found[0], found[1], found[2], found[3], found[4], found[5] }), extent);
+  };
+  expectExtent(2, { 10, 50, 24, 36, 24, 36 });
+  expectExtent(1, { -6, 23, -3, 9, -3, 9 }); // not beyond the working grid
+  split->SetPadding(2);                      // of two voxels no more than eight samples
+  split->Update();
+  expectExtent(2, { 22, 38, 28, 32, 28, 32 });
+}
+
 TEST(LabelSplit, PublishesItsFrameBeforeThereIsData)
 {
   vtkNew<vtkLabelSplit> split;
