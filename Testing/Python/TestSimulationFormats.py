@@ -3,7 +3,6 @@
 """Meshes for simulation as others read them: Gmsh the .msh files, CalculiX the .inp files. Three materials whose volumes,
 areas and counts are known: a box of 4 x 3 x 5, the label 1 in its lowest two layers, 2 above, and a cube of the label 9
 in one corner of the top; the cubes of the grid are cut into six tetrahedra each."""
-import itertools
 import json
 import math
 import re
@@ -15,9 +14,8 @@ from pathlib import Path
 
 import numpy as np
 from labelmesh import vtkAbaqusLabelMeshWriter, vtkGmshLabelMeshWriter
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
+
+from tetra_boxes import as_grid, box
 
 HERE = Path(__file__).resolve().parent
 SIZE = (4, 3, 5)
@@ -41,44 +39,8 @@ def label_of(i, j, k):
     return 1 if k < 2 else 9 if (i, j, k) == (3, 2, 4) else 2
 
 
-def box():
-    index = lambda at: at[0] + (SIZE[0] + 1) * (at[1] + (SIZE[1] + 1) * at[2])
-    points = [(i, j, k) for k in range(SIZE[2] + 1) for j in range(SIZE[1] + 1) for i in range(SIZE[0] + 1)]
-    corners, labels = [], []
-    for cube in itertools.product(*map(range, SIZE)):
-        for order in itertools.permutations(range(3)):  # odd ones are turned inside out
-            at, tetra = list(cube), [index(cube)]
-            for axis in order:
-                at[axis] += 1
-                tetra.append(index(at))
-            corners.append(tetra)
-            labels.append(label_of(*cube))
-    return np.array(points) + ORIGIN, np.array(corners), np.array(labels)
-
-
-def as_grid(points, corners, labels, names):
-    grid = vtkUnstructuredGrid()
-    vtk_points = vtkPoints()
-    vtk_points.SetData(numpy_to_vtk(points, deep=True))
-    grid.SetPoints(vtk_points)
-    grid.Allocate(len(corners))
-    for tetra in corners.tolist():
-        grid.InsertNextCell(VTK_TETRA, 4, tetra)
-
-    def add(data, name, values):
-        array = numpy_to_vtk(np.array(values, dtype=np.int64), deep=True)
-        array.SetName(name)
-        data.AddArray(array)
-
-    add(grid.GetCellData(), "Label", labels)
-    add(grid.GetFieldData(), "Labels", list(names))
-    add(grid.GetFieldData(), "BackgroundLabel", [0])
-    strings = vtkStringArray()
-    strings.SetName("MaterialNames")
-    for name in names.values():
-        strings.InsertNextValue(name)
-    grid.GetFieldData().AddArray(strings)
-    return grid
+def three_materials():
+    return box(SIZE, ORIGIN, label_of)
 
 
 def write(writer, grid, name):
@@ -103,7 +65,7 @@ class TestGmsh(unittest.TestCase):
         return json.loads(result.stdout)
 
     def check(self, binary):
-        points, corners, labels = box()
+        points, corners, labels = three_materials()
         writer = vtkGmshLabelMeshWriter()
         writer.SetBinary(binary)
         found = self.read(write(writer, as_grid(points, corners, labels, MATERIALS), f"box{binary}.msh"))
@@ -138,7 +100,7 @@ class TestGmsh(unittest.TestCase):
 
     def test_gmsh_writes_what_it_read(self):
         """The program itself, with its own check, and the whole way round through its own writer."""
-        name = write(vtkGmshLabelMeshWriter(), as_grid(*box(), MATERIALS), "again.msh")
+        name = write(vtkGmshLabelMeshWriter(), as_grid(*three_materials(), MATERIALS), "again.msh")
         result = subprocess.run(["gmsh", name, "-save", "-format", "msh2", "-o", "again2.msh", "-v", "3"],
                                 capture_output=True, text=True, timeout=60)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -148,7 +110,7 @@ class TestGmsh(unittest.TestCase):
                          {name: 6 * volume for name, volume in VOLUMES.items()})
 
     def test_names_and_labels_of_every_kind(self):
-        points, corners, labels = box()
+        points, corners, labels = three_materials()
         labels = np.where(labels == 1, -5, np.where(labels == 2, 2**40, 7))
         names = {-5: 'a "quoted" name', 0: "", 7: "ä" * 100, 2**40: "x\ny"}
         found = self.read(write(vtkGmshLabelMeshWriter(), as_grid(points, corners, labels, names), "names.msh"))
@@ -170,7 +132,7 @@ class TestCalculix(unittest.TestCase):
     def test_sets(self):
         """Squeezed by its side z max, all other sides held: volumes of the element sets, areas and normals of the
         surfaces, counts of the node sets, as CalculiX prints them."""
-        mesh = write(vtkAbaqusLabelMeshWriter(), as_grid(*box(), MATERIALS), "mesh.inp")
+        mesh = write(vtkAbaqusLabelMeshWriter(), as_grid(*three_materials(), MATERIALS), "mesh.inp")
         names = {name: name.replace(" ", "_") for name in [*VOLUMES, *FACES]}
         model = f"*INCLUDE, INPUT={mesh}\n*MATERIAL, NAME=M\n*ELASTIC\n1000, 0.25\n"
         for name in VOLUMES:
