@@ -14,7 +14,8 @@ namespace
 {
 using namespace LabelMesh;
 
-/// "Floating-point numbers may occupy 20 characters"; CalculiX cuts off what is longer, exponents too.
+/// "Floating-point numbers may occupy 20 characters"; CalculiX cuts off what is longer, and then refuses half an
+/// exponent.
 constexpr int NumberWidth = 20;
 constexpr int IdsPerLine = 16;
 

@@ -26,6 +26,9 @@
 #define TETLIBRARY // without it tetgen.h declares the program, not the library
 #include <tetgen.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -131,6 +134,42 @@ std::string ReasonOf(int code)
   }
 }
 
+/// TetGen crashes on some triangles that cut each other, so it is tried in a process of its own first.
+void TryFirst(const std::function<void()>& work)
+{
+  std::fflush(stdout);
+  const pid_t child = fork();
+  if (child == 0)
+  {
+    try
+    {
+      work();
+      _exit(0);
+    }
+    catch (int code)
+    {
+      _exit(code);
+    }
+    catch (...)
+    {
+      _exit(2);
+    }
+  }
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) != child)
+  {
+    throw std::runtime_error("there is no process to try TetGen in");
+  }
+  if (WIFSIGNALED(status))
+  {
+    throw std::runtime_error("it crashed");
+  }
+  if (WEXITSTATUS(status) != 0)
+  {
+    throw std::runtime_error(ReasonOf(WEXITSTATUS(status)));
+  }
+}
+
 /// TetGen's tetrahedra inside the triangles; throws a sentence when it refuses them.
 Mesh Fill(const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& triangles)
 {
@@ -156,14 +195,13 @@ Mesh Fill(const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>
   }
   // p: inside the triangles, Y: which stay as they are, q: radius-edge ratio, Q: quiet.
   char switches[] = "pYq1.414Q";
-  try
-  {
-    tetrahedralize(switches, &input, &output);
-  }
-  catch (int code)
-  {
-    throw std::runtime_error(ReasonOf(code));
-  }
+  TryFirst(
+    [&switches, &input]()
+    {
+      tetgenio tried;
+      tetrahedralize(switches, &input, &tried);
+    });
+  tetrahedralize(switches, &input, &output);
   Mesh mesh;
   for (int n = 0; n < output.numberofpoints; ++n)
   {
@@ -191,7 +229,7 @@ Mesh FillOrOuter(const Surface& surface)
   }
   catch (const std::runtime_error& problem)
   {
-    std::printf("  TetGen refuses the %zu triangles: %s\n", surface.Triangles.size(), problem.what());
+    std::printf("  TetGen cannot fill all %zu triangles: %s\n", surface.Triangles.size(), problem.what());
   }
   std::vector<std::array<int, 3>> outer;
   for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
@@ -201,9 +239,16 @@ Mesh FillOrOuter(const Surface& surface)
       outer.push_back(surface.Triangles[t]);
     }
   }
-  const Mesh mesh = Fill(surface.Points, outer);
-  std::printf("  TetGen inside the %zu outer triangles alone: one material, not all\n", outer.size());
-  return mesh;
+  try
+  {
+    const Mesh mesh = Fill(surface.Points, outer);
+    std::printf("  TetGen inside the %zu outer triangles alone: one material, not all\n", outer.size());
+    return mesh;
+  }
+  catch (const std::runtime_error& problem)
+  {
+    throw std::runtime_error(std::string("TetGen cannot fill the outer triangles alone either: ") + problem.what());
+  }
 }
 
 /// Points on faces that only one tetrahedron has; points of none count too, so that they leave the matrix.

@@ -11,7 +11,9 @@ import sys
 import unittest
 from pathlib import Path
 
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+from vtkmodules.vtkCommonCore import vtkPoints, vtkTypeInt64Array
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter, vtkXMLUnstructuredGridWriter
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "Python"))
 from tetra_boxes import as_grid, box  # noqa: E402
@@ -64,6 +66,31 @@ class TestConditioning(unittest.TestCase):
             self.assertEqual(len(found), 2)
             for least, most, condition in found:
                 self.assertAlmostEqual(most / least / condition, 1, places=4)
+
+    def test_triangles_that_cut_each_other(self):
+        mesh, points, triangles, sides = vtkPolyData(), vtkPoints(), vtkCellArray(), vtkTypeInt64Array()
+        for shift in (0, 0.25):
+            first = points.GetNumberOfPoints()
+            for corner in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)):
+                points.InsertNextPoint([x + shift for x in corner])
+            for face in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)):
+                triangles.InsertNextCell(3, [first + corner for corner in face])
+        mesh.SetPoints(points)
+        mesh.SetPolys(triangles)
+        sides.SetName("BoundaryLabels")
+        sides.SetNumberOfComponents(2)
+        for _ in range(8):
+            sides.InsertNextTuple2(1, 0)
+        mesh.GetCellData().AddArray(sides)
+        writer = vtkXMLPolyDataWriter()
+        writer.SetDataModeToBinary()
+        writer.SetInputData(mesh)
+        writer.SetFileName("cut.vtp")
+        writer.Write()
+        result = run("cut.vtp")
+        self.assertEqual(result.returncode, 1, result.stdout)
+        self.assertIn("cannot fill all 8 triangles: ", result.stdout)
+        self.assertIn("cannot fill the outer triangles alone either: ", result.stderr)
 
     def test_says_what_is_wrong(self):
         write_cube(1, "one.vtu")
