@@ -18,6 +18,9 @@ packages=(
   python3-numpy                                                    # volumes of the demo and the tests
   mpi-default-bin xvfb xauth                                       # pvbatch; a display for pictures and for the application
 )
+test_packages=(
+  gmsh python3-gmsh calculix-ccx                                   # read the meshes for simulation, and solve with them
+)
 
 say()
 {
@@ -43,10 +46,11 @@ apt()
   as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq "$@"
 }
 
+# install_packages PACKAGE...: those that are missing.
 install_packages()
 {
   local missing=() package
-  for package in "${packages[@]}"
+  for package in "$@"
   do
     if [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" != installed ]
     then
@@ -125,17 +129,17 @@ demo()
 
 case "${1:-}" in
   build)
-    install_packages
+    install_packages "${packages[@]}"
     build_preset paraview build -DLABELMESH_TESTING=OFF
     say "Built: build/bin/labelmesh, $(echo build/lib/python3*/site-packages), $(echo build/lib/paraview-5.11/plugins/LabelMesh/*.so)"
     ;;
   demo)
-    install_packages
+    install_packages "${packages[@]}"
     build_preset paraview build -DLABELMESH_TESTING=OFF
     demo
     ;;
   test)
-    install_packages
+    install_packages "${packages[@]}" "${test_packages[@]}"
     unpack_vtk
     build_preset paraview build -DLABELMESH_TESTING=ON
     build_preset vtk build-vtk -DLABELMESH_TESTING=ON -DVTK_DIR="$vtk_dir"

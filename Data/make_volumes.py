@@ -99,6 +99,13 @@ def thin_plate():
     return labels
 
 
+def two_layers():
+    """A full box in two layers: label 1 below, 2 above. For meshes with a flat border."""
+    labels = np.full((16, 20, 24), 2, np.uint8)
+    labels[:6] = 1
+    return labels
+
+
 def grains():
     """Twelve Voronoi grains that fill the whole volume: no background between them or around."""
     random = np.random.default_rng(7)
@@ -125,6 +132,7 @@ VOLUMES = {
     "eight_octants": (eight_octants, dict),
     "nested_shells": (nested_shells, dict),
     "thin_plate": (thin_plate, dict),
+    "two_layers": (two_layers, dict),
     "grains": (grains, dict),
 }
 

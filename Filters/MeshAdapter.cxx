@@ -5,6 +5,7 @@
 #include "Core/ConstrainedDelaunay.h"
 #include "Core/VertexFans.h"
 #include "LabelMeshNames.h"
+#include "MaterialArrays.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
@@ -96,44 +97,6 @@ void AddMaterialSets(
   pointData->AddArray(dimensions);
   pointData->AddArray(numbers);
   pointData->AddArray(sets);
-}
-
-/// A numeric array as the type that we need; a copy where it has another type.
-template <typename Array>
-vtkSmartPointer<Array> As(vtkDataArray* array)
-{
-  if (Array* same = Array::SafeDownCast(array))
-  {
-    return same;
-  }
-  auto copy = vtkSmartPointer<Array>::New();
-  copy->DeepCopy(array);
-  return copy;
-}
-
-vtkDataArray* RequiredArray(vtkFieldData* data, const char* kind, const char* name, int components, const char* origin)
-{
-  vtkDataArray* array = data->GetArray(name);
-  if (!array)
-  {
-    throw std::invalid_argument(
-      std::string("The input has no ") + kind + " array '" + name + "'. Connect the output of " + origin + ".");
-  }
-  if (array->GetNumberOfComponents() != components)
-  {
-    throw std::invalid_argument(std::string("The ") + kind + " array '" + name + "' has " +
-      std::to_string(array->GetNumberOfComponents()) + " components, expected " + std::to_string(components) +
-      ". Connect the output of " + origin + ".");
-  }
-  return array;
-}
-
-/// Position of a label among materials that ascend by label; NoMaterial when it is not there.
-MaterialId FindMaterial(const std::vector<Material>& materials, Label label)
-{
-  const auto at =
-    std::lower_bound(materials.begin(), materials.end(), label, [](const Material& m, Label l) { return m.Label < l; });
-  return at != materials.end() && at->Label == label ? MaterialId(at - materials.begin()) : NoMaterial;
 }
 
 /// The material set of every point. Throws when a label is unknown.
@@ -290,29 +253,6 @@ void AddMaterialFields(const Material& material, vtkFieldData* fieldData)
   auto color = NewArray<vtkDoubleArray>(Names::Color, 3, 1);
   color->SetTuple(0, material.Color.data());
   fieldData->AddArray(color);
-}
-
-/// Adds the labels of the pairs to the materials that the field data names.
-void AddMissingMaterials(const std::vector<Label>& pairs, std::vector<Material>& materials)
-{
-  std::vector<Label> labels = pairs;
-  std::sort(labels.begin(), labels.end());
-  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  const std::size_t known = materials.size();
-  for (const Label label : labels)
-  {
-    if (std::none_of(
-          materials.begin(), materials.begin() + known, [label](const Material& m) { return m.Label == label; }))
-    {
-      materials.push_back(DefaultMaterial(label));
-    }
-  }
-  std::sort(materials.begin(), materials.end(), [](const Material& a, const Material& b) { return a.Label < b.Label; });
-  if (materials.size() >= NoMaterial)
-  {
-    throw std::invalid_argument("The mesh has " + std::to_string(materials.size()) + " labels, at most " +
-      std::to_string(NoMaterial - 1) + " are possible.");
-  }
 }
 
 std::vector<std::array<Index, 3>> ReadTriangles(vtkPolyData* mesh)
@@ -516,10 +456,7 @@ InterfaceData ReadInterface(vtkPolyData* mesh)
   const std::vector<std::array<Index, 3>> triangles = ReadTriangles(mesh);
   data.Materials = mesh->GetFieldData()->GetAbstractArray(Names::Labels) ? ReadMaterials(mesh->GetFieldData())
                                                                          : std::vector<Material>();
-  if (vtkDataArray* background = mesh->GetFieldData()->GetArray(Names::BackgroundLabel))
-  {
-    data.Background = As<vtkTypeInt64Array>(background)->GetValue(0);
-  }
+  data.Background = ReadBackground(mesh->GetFieldData());
   vtkDataArray* pairArray = mesh->GetCellData()->GetArray(Names::BoundaryLabels);
   if (triangles.empty() && !pairArray)
   {
