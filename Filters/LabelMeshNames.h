@@ -11,7 +11,8 @@ inline constexpr char TightDistance[] = "TightDistance"; ///< float32, world len
 inline constexpr char Indicator[] = "Indicator";         ///< float32, world length, > 0 inside
 
 // Field data of a block (and of each surface of a material).
-inline constexpr char Label[] = "Label"; ///< int64 x 1; also the point array of a rebuilt label image
+inline constexpr char Label[] = "Label"; ///< int64 x 1; also the point array of a rebuilt label image and
+                                         ///< the cell array of tetrahedra
 inline constexpr char Color[] = "Color"; ///< float64 x 3, 0 to 1
 
 // Field data of a collection, and of the interface mesh where it applies.
@@ -50,7 +51,7 @@ inline constexpr char Normal[] = "Normal";           ///< float64 x 3 (particles
 inline constexpr char BoundaryLabels[] =
   "BoundaryLabels"; ///< cells, int64 x 2: normal points from the first to the second
 inline constexpr char DistanceToVoxels[] = "DistanceToVoxels"; ///< points, float64, world length (error map)
-inline constexpr char RadiusRatio[] = "RadiusRatio";           ///< cells, float64: 2 r_in / r_circ
+inline constexpr char RadiusRatio[] = "RadiusRatio"; ///< cells, float64: 2 r_in / r_circ; of tetrahedra 3 r_in / r_circ
 }
 
 #endif

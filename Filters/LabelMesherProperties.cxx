@@ -391,3 +391,94 @@ void vtkLabelMesher::ClearMaterialMaximumLengths()
 {
   this->Stages->Sizing->ClearMaterialMaximumLengths();
 }
+
+void vtkLabelMesher::SetTetrahedra(int mode)
+{
+  this->Stages->Mesh->SetTetrahedra(mode);
+  this->Stages->Sample->SetSampleVolume(this->GetTetrahedra() == vtkDelaunayLabelMesh::Packed);
+}
+
+int vtkLabelMesher::GetTetrahedra() const
+{
+  return this->Stages->Mesh->GetTetrahedra();
+}
+
+void vtkLabelMesher::SetTetrahedraToOff()
+{
+  this->SetTetrahedra(vtkDelaunayLabelMesh::Off);
+}
+
+void vtkLabelMesher::SetTetrahedraToPacked()
+{
+  this->SetTetrahedra(vtkDelaunayLabelMesh::Packed);
+}
+
+void vtkLabelMesher::SetTetrahedraToTetGen()
+{
+  this->SetTetrahedra(vtkDelaunayLabelMesh::TetGen);
+}
+
+void vtkLabelMesher::SetRefinementRounds(int rounds)
+{
+  this->Stages->Mesh->SetRefinementRounds(rounds);
+}
+
+int vtkLabelMesher::GetRefinementRounds() const
+{
+  return this->Stages->Mesh->GetRefinementRounds();
+}
+
+void vtkLabelMesher::SetRadiusEdgeRatio(double ratio)
+{
+  this->Stages->Mesh->SetRadiusEdgeRatio(ratio);
+}
+
+double vtkLabelMesher::GetRadiusEdgeRatio() const
+{
+  return this->Stages->Mesh->GetRadiusEdgeRatio();
+}
+
+void vtkLabelMesher::SetMinimumDihedral(double degrees)
+{
+  this->Stages->Mesh->SetMinimumDihedral(degrees);
+}
+
+double vtkLabelMesher::GetMinimumDihedral() const
+{
+  return this->Stages->Mesh->GetMinimumDihedral();
+}
+
+void vtkLabelMesher::SetVolumeGradation(double gradation)
+{
+  this->Stages->Sample->SetVolumeGradation(gradation);
+}
+
+double vtkLabelMesher::GetVolumeGradation() const
+{
+  return this->Stages->Sample->GetVolumeGradation();
+}
+
+void vtkLabelMesher::SetVolumeMaximumLength(double length)
+{
+  this->Stages->Sample->SetVolumeMaximumLength(length);
+}
+
+double vtkLabelMesher::GetVolumeMaximumLength() const
+{
+  return this->Stages->Sample->GetVolumeMaximumLength();
+}
+
+void vtkLabelMesher::SetMaterialVolumeMaximumLength(vtkIdType label, double length)
+{
+  this->Stages->Sample->SetMaterialVolumeMaximumLength(label, length);
+}
+
+double vtkLabelMesher::GetMaterialVolumeMaximumLength(vtkIdType label) const
+{
+  return this->Stages->Sample->GetMaterialVolumeMaximumLength(label);
+}
+
+void vtkLabelMesher::ClearMaterialVolumeMaximumLengths()
+{
+  this->Stages->Sample->ClearMaterialVolumeMaximumLengths();
+}

@@ -2,12 +2,14 @@
 #include "MeshAdapter.h"
 
 #include "BorderFaces.h"
+#include "Core/ConstrainedDelaunay.h"
 #include "Core/VertexFans.h"
 #include "LabelMeshNames.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataAssembly.h>
@@ -23,6 +25,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -473,6 +476,37 @@ void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& head
   output->GetCellData()->AddArray(pairs);
   output->GetCellData()->AddArray(ratios);
   AddMaterialSets(vertices, header.Materials, output->GetPointData());
+  WriteMaterials(output->GetFieldData(), header.Materials, header.Background);
+}
+
+void TetrahedraToGrid(const TetraMesh& mesh, const CollectionHeader& header, vtkUnstructuredGrid* output)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(vtkIdType(mesh.Points.size()));
+  for (std::size_t p = 0; p < mesh.Points.size(); ++p)
+  {
+    points->SetPoint(vtkIdType(p), header.Source.LocalToWorld(mesh.Points[p]).data());
+  }
+  output->SetPoints(points);
+  const Index count = Index(mesh.Corners.size());
+  auto connectivity = NewArray<vtkTypeInt64Array>("", 1, 4 * count);
+  auto labels = NewArray<vtkTypeInt64Array>(Names::Label, 1, count);
+  auto ratios = NewArray<vtkDoubleArray>(Names::RadiusRatio, 1, count);
+  const bool mirrored = header.Source.Mirrored();
+  for (Index t = 0; t < count; ++t)
+  {
+    const auto& c = mesh.Corners[t];
+    connectivity->SetValue(4 * t, c[0]);
+    connectivity->SetValue(4 * t + 1, c[mirrored ? 2 : 1]); // a mirroring turns it inside out
+    connectivity->SetValue(4 * t + 2, c[mirrored ? 1 : 2]);
+    connectivity->SetValue(4 * t + 3, c[3]);
+    labels->SetValue(t, header.Materials[mesh.Materials[t]].Label);
+    ratios->SetValue(t, TetraRadiusRatio(mesh.Points[c[0]], mesh.Points[c[1]], mesh.Points[c[2]], mesh.Points[c[3]]));
+  }
+  output->SetCells(VTK_TETRA, EqualCells(connectivity, 4));
+  output->GetCellData()->AddArray(labels);
+  output->GetCellData()->AddArray(ratios);
   WriteMaterials(output->GetFieldData(), header.Materials, header.Background);
 }
 

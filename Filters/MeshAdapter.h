@@ -6,12 +6,14 @@
 #include "Core/GridFrame.h"
 #include "Core/InterfaceMesh.h"
 #include "Core/Particles.h"
+#include "Core/TetraMesh.h"
 #include "IndicatorCollection.h"
 
 #include <vector>
 
 class vtkPartitionedDataSetCollection;
 class vtkPolyData;
+class vtkUnstructuredGrid;
 
 namespace LabelMesh
 {
@@ -29,6 +31,10 @@ void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Partic
 /// Materials. Turns triangles over for mirrored frames and orders each pair as the contract says: the background label
 /// second, else ascending. Field data as WriteMaterials.
 void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output);
+
+/// Tetrahedra with cell arrays Label and RadiusRatio; the points of the interface come first, with the bits that
+/// InterfaceToPolyData gives them. Field data as WriteMaterials.
+void TetrahedraToGrid(const TetraMesh& mesh, const CollectionHeader& header, vtkUnstructuredGrid* output);
 
 /// One closed, outward-oriented vtkPolyData per label that is not the background, ascending, NAME and field data Label
 /// and Color, with the interface's own points (one where a surface touches itself stands there once for each fan of its

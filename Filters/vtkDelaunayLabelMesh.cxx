@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDelaunayLabelMesh.h"
 
+#include "Core/ConstrainedDelaunay.h"
 #include "Core/MeshInterfaces.h"
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
@@ -12,23 +13,50 @@
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <algorithm>
 
 vtkStandardNewMacro(vtkDelaunayLabelMesh);
 
 namespace
 {
+using namespace LabelMesh;
+
 constexpr double PoorRatio = 0.3; // a mesh with a worse triangle gets a warning
+
+/// Takes the particles of 3-cells out.
+std::vector<InnerPoint> TakeInside(std::vector<Particle>& particles)
+{
+  std::vector<InnerPoint> inside;
+  for (const Particle& p : particles)
+  {
+    if (p.CellDimension == 3)
+    {
+      inside.push_back({ p.Position, p.TargetLength });
+    }
+  }
+  particles.erase(
+    std::remove_if(particles.begin(), particles.end(), [](const Particle& p) { return p.CellDimension == 3; }),
+    particles.end());
+  return inside;
+}
 }
 
 vtkDelaunayLabelMesh::vtkDelaunayLabelMesh()
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 vtkPartitionedDataSetCollection* vtkDelaunayLabelMesh::GetSurfaces()
 {
   return vtkPartitionedDataSetCollection::SafeDownCast(this->GetOutputDataObject(1));
+}
+
+vtkUnstructuredGrid* vtkDelaunayLabelMesh::GetTetrahedraOutput()
+{
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(2));
 }
 
 int vtkDelaunayLabelMesh::FillInputPortInformation(int port, vtkInformation* info)
@@ -39,14 +67,14 @@ int vtkDelaunayLabelMesh::FillInputPortInformation(int port, vtkInformation* inf
 
 int vtkDelaunayLabelMesh::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkPartitionedDataSetCollection");
+  const char* const types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkUnstructuredGrid" };
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
 
 int vtkDelaunayLabelMesh::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  using namespace LabelMesh;
   vtkPolyData* particles = vtkPolyData::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputVector[1], 0);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
@@ -56,16 +84,21 @@ int vtkDelaunayLabelMesh::RequestData(
     {
       const CollectionHeader header = ReadHeader(collection);
       MeshResult result;
+      std::vector<InnerPoint> inside;
+      MaterialId background = NoMaterial;
       if (particles->GetNumberOfPoints() > 0)
       {
         monitor.Step(0.0, "Reading the particles");
-        const std::vector<Particle> sites = ParticlesFromPolyData(particles, header);
+        std::vector<Particle> sites = ParticlesFromPolyData(particles, header);
+        inside = TakeInside(sites);
         const IndicatorSet indicators = MakeIndicatorSet(collection, header);
+        background = indicators.Background();
         MeshOptions options;
         options.RepairRounds = this->RepairRounds;
         options.ImprovePasses = this->ImprovePasses;
         options.RepairBelow = this->RepairBelow;
-        result = MeshInterfaces(indicators, sites, options, monitor.Part(0.05, 0.9));
+        result = MeshInterfaces(
+          indicators, std::move(sites), options, monitor.Part(0.05, this->Tetrahedra == Off ? 0.9 : 0.5));
       }
       this->NumberOfTetrahedra = result.Tetrahedra;
       this->RoundsDone = result.Rounds;
@@ -84,6 +117,21 @@ int vtkDelaunayLabelMesh::RequestData(
       }
       InterfaceToPolyData(result.Mesh, header, output);
       SurfacesOfMaterials(output, surfaces);
+      TetraResult filled;
+      if (this->Tetrahedra != Off)
+      {
+        TetraOptions fill;
+        fill.RefinementRounds = this->Tetrahedra == Packed ? this->RefinementRounds : 0;
+        fill.Refine = this->Tetrahedra == TetGen;
+        fill.RadiusEdgeRatio = this->RadiusEdgeRatio;
+        fill.MinimumDihedral = this->MinimumDihedral;
+        inside.resize(fill.Refine ? 0 : inside.size());
+        filled = FillWithTetrahedra(result.Mesh, background, inside, fill, monitor.Part(0.6, 0.95));
+      }
+      this->InnerPointsLeftOut = filled.LeftOut;
+      this->InnerPointsAdded = filled.Added;
+      this->CircumcentresInserted = filled.Inserted;
+      TetrahedraToGrid(filled.Mesh, header, vtkUnstructuredGrid::GetData(outputVector, 2));
       monitor.Step(1.0);
     });
 }
@@ -94,6 +142,13 @@ void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RepairRounds: " << this->RepairRounds << "\n";
   os << indent << "ImprovePasses: " << this->ImprovePasses << "\n";
   os << indent << "RepairBelow: " << this->RepairBelow << "\n";
+  os << indent << "Tetrahedra: " << this->Tetrahedra << "\n";
+  os << indent << "RefinementRounds: " << this->RefinementRounds << "\n";
+  os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
+  os << indent << "MinimumDihedral: " << this->MinimumDihedral << "\n";
+  os << indent << "InnerPointsLeftOut: " << this->InnerPointsLeftOut << "\n";
+  os << indent << "InnerPointsAdded: " << this->InnerPointsAdded << "\n";
+  os << indent << "CircumcentresInserted: " << this->CircumcentresInserted << "\n";
   os << indent << "NumberOfTetrahedra: " << this->NumberOfTetrahedra << "\n";
   os << indent << "RoundsDone: " << this->RoundsDone << "\n";
   os << indent << "WrongFaces: " << this->WrongFaces << "\n";

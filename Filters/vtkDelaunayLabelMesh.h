@@ -6,8 +6,10 @@
  * Delaunay tetrahedra of the particles get a material each; the faces between tetrahedra of different materials are the
  * mesh (paper, sections 4.3 and 5.3). So it is closed and conforming by construction.
  *
- * Input port 0 (vtkPolyData): the particles, from vtkParticleSampleCells.
- * Input port 1 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array
+ * On request (Tetrahedra) the materials are filled with tetrahedra that conform to that mesh (paper, section 6).
+ *
+ * Input port 0 (vtkPolyData): the particles, from vtkParticleSampleCells. Those of 3-cells take part in tetrahedra
+ * only. Input port 1 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array
  * "Indicator".
  *
  * Output port 0 (vtkPolyData): triangles, each once.
@@ -22,6 +24,13 @@
  * ascending by label, NAME the material's: its closed surface, normals outward, with the points of port 0 to the last
  * bit and their arrays. "BoundaryLabels" is (own label, other side's) there. Field data Label, Color. A material that
  * was lost has an empty block. A point where the surface touches itself stands there once for each fan of triangles.
+ *
+ * Output port 2 (vtkUnstructuredGrid): positively oriented tetrahedra that fill every material but the background; no
+ * points and cells unless Tetrahedra is on. The points of port 0 come first, to the last bit and in the same order,
+ * then those inside. The triangles of port 0 are faces of tetrahedra just as they are, each between the two labels that
+ * it says, and no other face is between two labels (checked).
+ *  - cell data "Label" (int64), "RadiusRatio" (double): 3 r_in / r_circ, 1 for a regular tetrahedron
+ *  - field data Labels, MaterialNames, MaterialColors, BackgroundLabel
  *
  * Method: a tetrahedron takes the material with the largest indicator at its circumcentre among those that are in the
  * sets of all four corners, so that no face crosses an interface (the paper asks the circumcentre alone). Then
@@ -40,6 +49,7 @@
 #include "vtkPolyDataAlgorithm.h"
 
 class vtkPartitionedDataSetCollection;
+class vtkUnstructuredGrid;
 
 class VTKLABELMESHFILTERS_EXPORT vtkDelaunayLabelMesh : public vtkPolyDataAlgorithm
 {
@@ -82,8 +92,56 @@ public:
   vtkGetMacro(WorstRadiusRatio, double);
   ///@}
 
+  /// Where tetrahedra come from.
+  enum TetrahedraMode
+  {
+    Off = 0,    ///< none are made
+    Packed = 1, ///< the particles of 3-cells (vtkParticleSampleCells, SampleVolume) are their inner points: SP
+    TetGen =
+      2 ///< TetGen inserts inner points by RadiusEdgeRatio and MinimumDihedral; particles inside are not used: TG
+  };
+
+  ///@{
+  /// Tetrahedra on port 2. In both modes TetGen makes them, and may add a few points inside to keep to the triangles.
+  /// Default Off.
+  vtkSetClampMacro(Tetrahedra, int, Off, TetGen);
+  vtkGetMacro(Tetrahedra, int);
+  void SetTetrahedraToOff() { this->SetTetrahedra(Off); }
+  void SetTetrahedraToPacked() { this->SetTetrahedra(Packed); }
+  void SetTetrahedraToTetGen() { this->SetTetrahedra(TetGen); }
+  ///@}
+
+  ///@{
+  /// With Packed: rounds in which the circumcentres of slivers, tetrahedra with a radius ratio below 0.1, become
+  /// points: the paper's SP-1R, SP-2R. Each round makes all tetrahedra anew. Default 0.
+  vtkSetClampMacro(RefinementRounds, int, 0, 100);
+  vtkGetMacro(RefinementRounds, int);
+  ///@}
+
+  ///@{
+  /// With TetGen: the largest circumradius over shortest edge that is asked for. Below 1.2 it may not end. Default 1.4.
+  vtkSetClampMacro(RadiusEdgeRatio, double, 1.0, 100.0);
+  vtkGetMacro(RadiusEdgeRatio, double);
+  ///@}
+
+  ///@{
+  /// With TetGen: the least dihedral angle that is asked for, degrees; 0: none. Beyond 18 it may not end. Default 0.
+  vtkSetClampMacro(MinimumDihedral, double, 0.0, 60.0);
+  vtkGetMacro(MinimumDihedral, double);
+  ///@}
+
+  ///@{
+  /// After an update with tetrahedra: particles inside that were too near to the interface and left out; points that
+  /// TetGen added inside; circumcentres that became points.
+  vtkGetMacro(InnerPointsLeftOut, vtkIdType);
+  vtkGetMacro(InnerPointsAdded, vtkIdType);
+  vtkGetMacro(CircumcentresInserted, vtkIdType);
+  ///@}
+
   /// Output port 1.
   vtkPartitionedDataSetCollection* GetSurfaces();
+  /// Output port 2.
+  vtkUnstructuredGrid* GetTetrahedraOutput();
 
 protected:
   vtkDelaunayLabelMesh();
@@ -96,6 +154,13 @@ protected:
   int RepairRounds = 8;
   int ImprovePasses = 3;
   double RepairBelow = 0.75;
+  int Tetrahedra = Off;
+  int RefinementRounds = 0;
+  double RadiusEdgeRatio = 1.4;
+  double MinimumDihedral = 0.0;
+  vtkIdType InnerPointsLeftOut = 0;
+  vtkIdType InnerPointsAdded = 0;
+  vtkIdType CircumcentresInserted = 0;
   vtkIdType NumberOfTetrahedra = 0;
   int RoundsDone = 0;
   vtkIdType WrongFaces = 0;

@@ -22,6 +22,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkTrivialProducer.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@ vtkLabelMesher::vtkLabelMesher()
   : Stages(new Pipeline)
 {
   this->SetNumberOfInputPorts(2);
-  this->SetNumberOfOutputPorts(4);
+  this->SetNumberOfOutputPorts(5);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
   this->SetInputArrayToProcess(1, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
@@ -97,6 +98,11 @@ vtkPolyData* vtkLabelMesher::GetCurves()
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(3));
 }
 
+vtkUnstructuredGrid* vtkLabelMesher::GetTetrahedraOutput()
+{
+  return vtkUnstructuredGrid::SafeDownCast(this->GetOutputDataObject(4));
+}
+
 int vtkLabelMesher::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
@@ -106,7 +112,9 @@ int vtkLabelMesher::FillInputPortInformation(int port, vtkInformation* info)
 
 int vtkLabelMesher::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkPartitionedDataSetCollection" : "vtkPolyData");
+  const char* const types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkPolyData",
+    "vtkUnstructuredGrid" };
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
 
@@ -141,6 +149,7 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
       surfaces->ShallowCopy(stages.Mesh->GetOutputDataObject(1));
       vtkDataObject::GetData(outputVector, 2)->ShallowCopy(stages.Sample->GetOutputDataObject(0));
       vtkDataObject::GetData(outputVector, 3)->ShallowCopy(stages.Sample->GetOutputDataObject(1));
+      vtkDataObject::GetData(outputVector, 4)->ShallowCopy(stages.Mesh->GetOutputDataObject(2));
       vtkFieldData* volumes = stages.Reconstruct->GetOutputDataObject(0)->GetFieldData();
       for (const char* name : { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes })
       {

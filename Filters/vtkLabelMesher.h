@@ -18,6 +18,8 @@
  * MaskVolumes, TightVolumes, KeptVolumes (float64, in the order of Labels) as vtkTighten's, for vtkLabelMeshReport.
  * Output port 2 (vtkPolyData): the particles, before repair; see vtkParticleSampleCells.
  * Output port 3 (vtkPolyData): the curves where three materials meet; see vtkParticleSampleCells.
+ * Output port 4 (vtkUnstructuredGrid): with Tetrahedra the tetrahedra that fill the materials; see
+ * vtkDelaunayLabelMesh.
  *
  * Properties are those of the stages, under the same names; see there for what they mean. Warnings of the stages are
  * warnings of this filter, an error of a stage is its error; progress names the stage that runs; an abort stops it.
@@ -33,6 +35,7 @@
 
 class vtkImageData;
 class vtkPartitionedDataSetCollection;
+class vtkUnstructuredGrid;
 
 class VTKLABELMESHFILTERS_EXPORT vtkLabelMesher : public vtkPolyDataAlgorithm
 {
@@ -180,6 +183,35 @@ public:
   ///@}
 
   ///@{
+  /// vtkDelaunayLabelMesh: tetrahedra inside the materials: Off, Packed or TetGen (Off; Packed also turns SampleVolume
+  /// of vtkParticleSampleCells on); rounds of refining slivers (0); radius-edge ratio (1.4) and least dihedral angle
+  /// (degrees, 0) for TetGen.
+  void SetTetrahedra(int mode);
+  int GetTetrahedra() const;
+  void SetTetrahedraToOff();
+  void SetTetrahedraToPacked();
+  void SetTetrahedraToTetGen();
+  void SetRefinementRounds(int rounds);
+  int GetRefinementRounds() const;
+  void SetRadiusEdgeRatio(double ratio);
+  double GetRadiusEdgeRatio() const;
+  void SetMinimumDihedral(double degrees);
+  double GetMinimumDihedral() const;
+  ///@}
+
+  ///@{
+  /// vtkParticleSampleCells: growth of the length inside materials (0.3); its maximum, world units (0: none), for all
+  /// and for single materials.
+  void SetVolumeGradation(double gradation);
+  double GetVolumeGradation() const;
+  void SetVolumeMaximumLength(double length);
+  double GetVolumeMaximumLength() const;
+  void SetMaterialVolumeMaximumLength(vtkIdType label, double length);
+  double GetMaterialVolumeMaximumLength(vtkIdType label) const;
+  void ClearMaterialVolumeMaximumLengths();
+  ///@}
+
+  ///@{
   /**
    * The stages, in order: "LabelSplit", "Tighten", "IndicatorReconstruct", "SizingField", "ParticleSampleCells",
    * "DelaunayLabelMesh". Of each: the seconds that its last run took, and how often it has run. 0 before it ran and for
@@ -192,10 +224,11 @@ public:
   ///@}
 
   ///@{
-  /// Output ports 1 to 3.
+  /// Output ports 1 to 4.
   vtkPartitionedDataSetCollection* GetSurfaces();
   vtkPolyData* GetParticles();
   vtkPolyData* GetCurves();
+  vtkUnstructuredGrid* GetTetrahedraOutput();
   ///@}
 
   /// The label image rebuilt from the indicators, which tells vtkLabelMeshReport what smoothing has lost: port 1 of the

@@ -62,7 +62,31 @@ vtkParticleSampleCells::vtkParticleSampleCells()
 
 vtkIdType vtkParticleSampleCells::GetNumberOfCellParticles(int dimension) const
 {
-  return dimension >= 0 && dimension < 3 ? this->CellParticles[dimension] : 0;
+  return dimension >= 0 && dimension < 4 ? this->CellParticles[dimension] : 0;
+}
+
+void vtkParticleSampleCells::SetMaterialVolumeMaximumLength(vtkIdType label, double length)
+{
+  if (this->GetMaterialVolumeMaximumLength(label) != length)
+  {
+    this->MaterialVolumeMaximumLengths[label] = length;
+    this->Modified();
+  }
+}
+
+double vtkParticleSampleCells::GetMaterialVolumeMaximumLength(vtkIdType label) const
+{
+  const auto found = this->MaterialVolumeMaximumLengths.find(label);
+  return found == this->MaterialVolumeMaximumLengths.end() ? 0.0 : found->second;
+}
+
+void vtkParticleSampleCells::ClearMaterialVolumeMaximumLengths()
+{
+  if (!this->MaterialVolumeMaximumLengths.empty())
+  {
+    this->MaterialVolumeMaximumLengths.clear();
+    this->Modified();
+  }
 }
 
 int vtkParticleSampleCells::FillInputPortInformation(int port, vtkInformation* info)
@@ -97,6 +121,13 @@ int vtkParticleSampleCells::RequestData(
         SampleOptions options;
         options.Sweeps = this->Sweeps;
         options.Seed = static_cast<std::uint32_t>(this->Seed);
+        options.Volume = this->SampleVolume;
+        options.Packing.Gradation = this->VolumeGradation;
+        options.Packing.MaximumLength = this->VolumeMaximumLength;
+        for (const Material& material : header.Materials)
+        {
+          options.Packing.MaterialMaximumLength.push_back(this->GetMaterialVolumeMaximumLength(material.Label));
+        }
         result = SampleCells(indicators, ReadLengths(sizing, header.Source), options, monitor.Part(0.02, 0.98));
       }
       std::copy(result.CellCounts.begin(), result.CellCounts.end(), this->CellParticles);
@@ -113,8 +144,17 @@ void vtkParticleSampleCells::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Sweeps: " << this->Sweeps << "\n";
   os << indent << "Seed: " << this->Seed << "\n";
-  os << indent << "CellParticles: " << this->CellParticles[0] << " " << this->CellParticles[1] << " "
-     << this->CellParticles[2] << "\n";
+  os << indent << "SampleVolume: " << (this->SampleVolume ? "on" : "off") << "\n";
+  os << indent << "VolumeGradation: " << this->VolumeGradation << "\n";
+  os << indent << "VolumeMaximumLength: " << this->VolumeMaximumLength << "\n";
+  os << indent << "MaterialVolumeMaximumLengths:";
+  for (const auto& [label, length] : this->MaterialVolumeMaximumLengths)
+  {
+    os << " " << label << ": " << length;
+  }
+  os << "\n"
+     << indent << "CellParticles: " << this->CellParticles[0] << " " << this->CellParticles[1] << " "
+     << this->CellParticles[2] << " " << this->CellParticles[3] << "\n";
   os << indent << "OpenCurveEnds: " << this->OpenCurveEnds << "\n";
   os << indent << "MeanMove: " << this->MeanMove << "\n";
 }

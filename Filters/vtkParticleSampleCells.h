@@ -6,6 +6,7 @@
  * The interfaces of several materials form a CW-complex (paper, section 3): 0-cells where four materials meet, 1-cells
  * (curves) where three do, 2-cells (surfaces) where two do. Particles are put on the 0-cells, then along the 1-cells,
  * then on the 2-cells, so that those of lower cells are fixed while the next ones move (paper, sections 4.2 and 5.2).
+ * On request (SampleVolume) the insides of the materials, the 3-cells, are packed too (paper, section 6).
  *
  * Input port 0 (vtkPartitionedDataSetCollection): the indicators, from vtkIndicatorReconstruct; block array
  * "Indicator".
@@ -13,8 +14,9 @@
  * Input port 1 (vtkImageData): point array "TargetLength" (any real type): how far apart particles shall be, world
  * length, from vtkSizingField. Its direction matrix must be that of the indicators. Beyond it the nearest value holds.
  *
- * Output port 0 (vtkPolyData): a vertex per particle, those of 0-cells first, then 1-cells, then 2-cells; point data
- *  - "CellDimension" (uint8): 0, 1 or 2: of the lowest cell that the particle lies on
+ * Output port 0 (vtkPolyData): a vertex per particle, those of 0-cells first, then 1-cells, 2-cells, 3-cells; point
+ * data
+ *  - "CellDimension" (uint8): 0 to 3: of the lowest cell that the particle lies on; 3: inside a material
  *  - "NumberOfMaterials" (uint8), "Materials" (int64 x 8): the labels that meet there, ascending, the rest repeats the
  *    last; more than four where junctions closer than the target length were merged
  *  - "BorderFaces" (uint8), where a flat border (vtkLabelSplit) has particles: bits 0 to 5 for the faces -x, +x, -y,
@@ -44,6 +46,8 @@
 #include "vtkLabelMeshFiltersModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
+#include <map> // for maxima per material
+
 class VTKLABELMESHFILTERS_EXPORT vtkParticleSampleCells : public vtkPolyDataAlgorithm
 {
 public:
@@ -63,7 +67,35 @@ public:
   vtkGetMacro(Seed, int);
   ///@}
 
-  /// After an update: how many particles lie on cells of this dimension (0 to 2).
+  ///@{
+  /// Particles inside every material but the background too, for tetrahedra. Default off.
+  vtkSetMacro(SampleVolume, bool);
+  vtkGetMacro(SampleVolume, bool);
+  vtkBooleanMacro(SampleVolume, bool);
+  ///@}
+
+  ///@{
+  /// How fast the distance of particles inside materials grows away from the interfaces, length per length. Default
+  /// 0.3.
+  vtkSetClampMacro(VolumeGradation, double, 0.01, 10.0);
+  vtkGetMacro(VolumeGradation, double);
+  ///@}
+
+  ///@{
+  /// The largest distance of particles inside materials, world units; 0: none. Default 0. A material's own wins over
+  /// it.
+  vtkSetClampMacro(VolumeMaximumLength, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(VolumeMaximumLength, double);
+  ///@}
+
+  ///@{
+  /// The same for one material; 0: as the others. Default none.
+  void SetMaterialVolumeMaximumLength(vtkIdType label, double length);
+  double GetMaterialVolumeMaximumLength(vtkIdType label) const;
+  void ClearMaterialVolumeMaximumLengths();
+  ///@}
+
+  /// After an update: how many particles lie on cells of this dimension (0 to 3).
   vtkIdType GetNumberOfCellParticles(int dimension) const;
 
   ///@{
@@ -87,7 +119,11 @@ protected:
 
   int Sweeps = 20;
   int Seed = 1;
-  vtkIdType CellParticles[3] = { 0, 0, 0 };
+  bool SampleVolume = false;
+  double VolumeGradation = 0.3;
+  double VolumeMaximumLength = 0.0;
+  std::map<vtkIdType, double> MaterialVolumeMaximumLengths;
+  vtkIdType CellParticles[4] = { 0, 0, 0, 0 };
   vtkIdType OpenCurveEnds = 0;
   double MeanMove = 0.0;
 

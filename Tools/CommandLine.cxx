@@ -128,9 +128,24 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--particles", text(line.Particles) },
     { "--report", text(line.Report) },
     { "--error-map", text(line.ErrorMap) },
-    { "--tets",
-      [](const std::string&, const std::string&)
-      { Fail("--tets: this version makes surfaces only; leave the option out"); } },
+    { "--tets", text(line.Tets) },
+    { "--tet-method",
+      [&line](const std::string&, const std::string& value)
+      {
+        if (value != "packed" && value != "tetgen")
+        {
+          Fail("--tet-method is packed or tetgen, found '" + value + "'");
+        }
+        line.TetsByTetGen = value == "tetgen";
+      } },
+    { "--tet-refine",
+      [&line](const std::string& option, const std::string& value)
+      {
+        line.TetRefinementRounds =
+          static_cast<int>(std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0), 100.0));
+      } },
+    { "--volume-gradation", number(line.VolumeGradation, 0.01) },
+    { "--volume-max-length", number(line.VolumeMaximumLength, 0.0) },
     { "--method",
       [&line](const std::string&, const std::string& value)
       {
@@ -216,10 +231,11 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
   RequireSuffix("-o", line.Mesh, ".vtp");
   RequireSuffix("--surfaces", line.Surfaces, ".vtpc");
   RequireSuffix("--particles", line.Particles, ".vtp");
+  RequireSuffix("--tets", line.Tets, ".vtu");
   RequireSuffix("--report", line.Report, ".json");
   RequireSuffix("--error-map", line.ErrorMap, ".vtp");
   std::set<std::string> files = { line.Input };
-  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Report, line.ErrorMap })
+  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Tets, line.Report, line.ErrorMap })
   {
     if (!file.empty() && !files.insert(file).second)
     {
@@ -228,10 +244,17 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
   }
   if (files.size() == 1)
   {
-    Fail(
-      "there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp or --report FILE.json");
+    Fail("there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp, --tets FILE.vtu or "
+         "--report FILE.json");
   }
-  for (const char* option : { "--particles", "--border", "--smoothing", "--radius", "--material", "--epsilon",
+  for (const char* option : { "--tet-method", "--tet-refine", "--volume-gradation", "--volume-max-length" })
+  {
+    if (line.Tets.empty() && given.count(option))
+    {
+      Fail(std::string(option) + " belongs to --tets FILE.vtu; leave it out without");
+    }
+  }
+  for (const char* option : { "--particles", "--tets", "--border", "--smoothing", "--radius", "--material", "--epsilon",
          "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit" })
   {
     if (line.Grid && given.count(option))
@@ -296,7 +319,8 @@ CommandLine ParseCommandLine(int argc, char** argv)
 
 std::string HelpText()
 {
-  return R"(usage: labelmesh INPUT [-o mesh.vtp] [--surfaces s.vtpc] [--particles p.vtp] [--report r.json] [options]
+  return R"(usage: labelmesh INPUT [-o mesh.vtp] [--surfaces s.vtpc] [--particles p.vtp] [--tets t.vtu] [--report r.json]
+                       [options]
 
 Meshes all material interfaces of a label volume: watertight, conforming, adaptive.
 INPUT: .mha .mhd .nrrd .nii .nii.gz .vti; one integer label per voxel. Names and colors of 3D Slicer's .seg.nrrd are
@@ -306,6 +330,7 @@ Files to write (each only when asked for, and only whole):
   -o FILE.vtp           triangles, each once, with the labels of its two sides (BoundaryLabels)
   --surfaces FILE.vtpc  a closed surface per material, and the folder FILE beside it
   --particles FILE.vtp  the particles, with the cells they lie on
+  --tets FILE.vtu       tetrahedra that fill the materials and conform to the triangles, with their Label
   --report FILE.json    the certificate, counts, quality, volumes, what was lost and why, times
   --error-map FILE.vtp  the triangles with each point's distance to the voxels' own interface (DistanceToVoxels)
 
@@ -330,6 +355,13 @@ Particle method (radii in voxels, lengths in world units):
   --deviation D         voxels that edges may stay beside curved surfaces (default 0.2; 0: no bound)
   --gradation G         how fast edge lengths may change (default 0.4)
   --memory-limit GIB    refuse volumes that would take more memory, by estimate (default 0: no limit)
+
+Tetrahedra (with --tets):
+  --tet-method packed   spheres packed inside the materials become their inner points (default)
+  --tet-method tetgen   TetGen inserts inner points
+  --tet-refine N        rounds of inserting points where packed slivers are (default 0)
+  --volume-gradation G  how fast edges grow inside (default 0.3)
+  --volume-max-length L bound of the edge length inside (default: none)
 
 Both methods:
   --triangles N         about how many triangles to make

@@ -23,14 +23,17 @@ struct CommandLine
   bool Help = false;
   bool Version = false;
   std::string Input;
-  std::string Mesh, Surfaces, Particles, Report, ErrorMap; ///< files to write; empty: not asked for
-  bool Grid = false;                                       ///< --method grid
+  std::string Mesh, Surfaces, Particles, Tets, Report, ErrorMap; ///< files to write; empty: not asked for
+  bool Grid = false;                                             ///< --method grid
+  bool TetsByTetGen = false;                                     ///< --tet-method tetgen
+  int TetRefinementRounds = 0;                                   ///< --tet-refine
   std::vector<long long> Labels;
   long long Background = 0;
   std::map<long long, MaterialOptions> Materials;
   bool FlatBorder = false; ///< --border flat
   bool Tightening = false; ///< --smoothing tighten
   std::optional<double> Radius, Epsilon, MinimumLength, MaximumLength, MaximumDeviation, Gradation;
+  std::optional<double> VolumeGradation, VolumeMaximumLength;
   long long Triangles = 0;
   std::optional<double> MemoryLimit; ///< GiB
   int Threads = 0;                   ///< 0: as many as there are

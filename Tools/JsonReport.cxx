@@ -285,14 +285,14 @@ std::string Summary(const std::vector<LossEntry>& losses)
 
 std::string CellsJson(vtkPolyData* particles)
 {
-  std::array<long long, 3> counts{ 0, 0, 0 };
+  std::array<long long, 4> counts{ 0, 0, 0, 0 };
   vtkDataArray* dimensions = particles->GetPointData()->GetArray("CellDimension");
   for (vtkIdType i = 0; i < particles->GetNumberOfPoints(); ++i)
   {
     ++counts.at(static_cast<std::size_t>(dimensions->GetComponent(i, 0)));
   }
   Json json;
-  for (int d = 0; d < 3; ++d)
+  for (int d = 0; d < (counts[3] > 0 ? 4 : 3); ++d)
   {
     json.Integer(std::to_string(d), counts[d]);
   }

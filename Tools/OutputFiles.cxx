@@ -10,8 +10,10 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPartitionedDataSetCollectionWriter.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 #include <vtkXMLWriterBase.h>
 
 #include <unistd.h>
@@ -49,10 +51,11 @@ void SetFormat(vtkXMLWriterBase* writer)
   writer->SetCompressionLevel(1);
 }
 
-/// What a .vtp file holds. VTK's writer crashes when it meets a full disk, so it writes into memory.
-std::string BytesOf(vtkPolyData* mesh, const std::string& file)
+/// What the file of an XML writer holds. VTK's writers crash when they meet a full disk, so they write into memory.
+template <typename Writer>
+std::string BytesOf(vtkDataObject* mesh, const std::string& file)
 {
-  vtkNew<vtkXMLPolyDataWriter> writer;
+  vtkNew<Writer> writer;
   SetFormat(writer);
   Messages messages(writer);
   writer->SetInputData(mesh);
@@ -199,7 +202,12 @@ std::string OutputFiles::StagedPath(const std::string& file)
 
 void OutputFiles::WriteMesh(const std::string& file, vtkPolyData* mesh)
 {
-  WriteBytes(this->StagedPath(file), BytesOf(mesh, file), file);
+  WriteBytes(this->StagedPath(file), BytesOf<vtkXMLPolyDataWriter>(mesh, file), file);
+}
+
+void OutputFiles::WriteGrid(const std::string& file, vtkUnstructuredGrid* grid)
+{
+  WriteBytes(this->StagedPath(file), BytesOf<vtkXMLUnstructuredGridWriter>(grid, file), file);
 }
 
 /// The blocks are written first, by ourselves (see BytesOf). Then the collection's writer gets placeholders, where it
@@ -213,8 +221,7 @@ void OutputFiles::WriteSurfaces(const std::string& file, vtkPartitionedDataSetCo
   const unsigned blocks = surfaces->GetNumberOfPartitionedDataSets();
   for (unsigned block = 0; block < blocks; ++block)
   {
-    WriteBytes(
-      BlockFile(written, block), BytesOf(vtkPolyData::SafeDownCast(surfaces->GetPartition(block, 0)), file), file);
+    WriteBytes(BlockFile(written, block), BytesOf<vtkXMLPolyDataWriter>(surfaces->GetPartition(block, 0), file), file);
   }
   const fs::path room = written / "room";
   WriteBytes(room, std::string((1 << 16) + (std::size_t(blocks) << 13), ' '), file);

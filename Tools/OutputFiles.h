@@ -8,6 +8,7 @@
 
 class vtkPartitionedDataSetCollection;
 class vtkPolyData;
+class vtkUnstructuredGrid;
 
 /// Each file is written in a hidden folder of its own beside its place. Commit moves all of them to their places;
 /// without it the folders vanish with this object, and nothing has changed. All functions throw std::runtime_error with
@@ -24,6 +25,7 @@ public:
   void Expect(const std::string& file);
 
   void WriteMesh(const std::string& file, vtkPolyData* mesh);
+  void WriteGrid(const std::string& file, vtkUnstructuredGrid* grid);
   /// A .vtpc file has a folder of its name beside it with a .vtp file per block.
   void WriteSurfaces(const std::string& file, vtkPartitionedDataSetCollection* surfaces);
   void WriteText(const std::string& file, const std::string& text);

@@ -10,6 +10,7 @@
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
+#include <vtkDelaunayLabelMesh.h>
 #include <vtkGridLabelMesh.h>
 #include <vtkImageData.h>
 #include <vtkLabelMeshReport.h>
@@ -21,6 +22,7 @@
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 #include <vtkTighten.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <unistd.h>
 
@@ -261,6 +263,13 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
   set(line.Gradation, &vtkLabelMesher::SetGradation);
   set(line.MemoryLimit, &vtkLabelMesher::SetMemoryLimit);
   mesher->SetTargetTriangles(line.Triangles);
+  if (!line.Tets.empty())
+  {
+    mesher->SetTetrahedra(line.TetsByTetGen ? vtkDelaunayLabelMesh::TetGen : vtkDelaunayLabelMesh::Packed);
+    mesher->SetRefinementRounds(line.TetRefinementRounds);
+    set(line.VolumeGradation, &vtkLabelMesher::SetVolumeGradation);
+    set(line.VolumeMaximumLength, &vtkLabelMesher::SetVolumeMaximumLength);
+  }
   for (const auto& [label, material] : line.Materials)
   {
     const auto setOwn = [&, label = label](
@@ -354,7 +363,7 @@ void MeshVolume(const CommandLine& line)
 {
   const double start = Now();
   OutputFiles files;
-  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Report, line.ErrorMap })
+  for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Tets, line.Report, line.ErrorMap })
   {
     if (!file.empty())
     {
@@ -413,6 +422,10 @@ void MeshVolume(const CommandLine& line)
   if (!line.Surfaces.empty())
   {
     files.WriteSurfaces(line.Surfaces, report.Surfaces);
+  }
+  if (!line.Tets.empty())
+  {
+    files.WriteGrid(line.Tets, mesher->GetTetrahedraOutput());
   }
   if (!line.Particles.empty())
   {

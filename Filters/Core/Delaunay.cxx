@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Delaunay.h"
 
+#include "TetGenRun.h"
+
 #define TETLIBRARY
 #include <tetgen.h>
 
 #include <limits>
-#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -13,27 +14,6 @@ namespace LabelMesh
 {
 namespace
 {
-std::string Reason(int code)
-{
-  switch (code)
-  {
-    case 1:
-      return "out of memory";
-    case 2:
-      return "an internal error";
-    case 3:
-      return "a self-intersection";
-    case 4:
-      return "a feature below its tolerance";
-    case 5:
-      return "two nearly coincident facets";
-    case 10:
-      return "an input error";
-    default:
-      return "error " + std::to_string(code);
-  }
-}
-
 bool SpansSpace(const std::vector<Vec3>& points)
 {
   // TetGen prints and throws on planar input; four points that span a volume are all that is asked for.
@@ -67,7 +47,6 @@ bool SpansSpace(const std::vector<Vec3>& points)
 
 Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points)
 {
-  static std::mutex tetgenIsNotThreadSafe;
   Tetrahedralization result;
   if (!SpansSpace(points))
   {
@@ -88,17 +67,7 @@ Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points)
     }
   }
   // Q quiet, n neighbours, N F: no copies of points and faces.
-  char switches[] = "QnNF";
-  try
-  {
-    const std::lock_guard<std::mutex> lock(tetgenIsNotThreadSafe);
-    tetrahedralize(switches, &input, &output);
-  }
-  catch (int code)
-  {
-    throw std::runtime_error(
-      "TetGen could not tetrahedralise " + std::to_string(points.size()) + " points: " + Reason(code));
-  }
+  RunTetGen("QnNF", input, output, "tetrahedralise " + std::to_string(points.size()) + " points");
   result.Corners.resize(output.numberoftetrahedra);
   result.Neighbors.resize(output.numberoftetrahedra);
   for (int t = 0; t < output.numberoftetrahedra; ++t)

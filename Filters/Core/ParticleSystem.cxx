@@ -3,6 +3,7 @@
 
 #include "CurveSampling.h"
 #include "Relaxation.h"
+#include "SpaceOrder.h"
 #include "SurfaceSampling.h"
 
 #include <numeric>
@@ -12,54 +13,13 @@ namespace LabelMesh
 namespace
 {
 constexpr int SweepsPerPopulation = 10; // the number of particles is corrected that often
-
-/// Interleaves the lower 21 bits of three numbers: near positions get near codes.
-std::uint64_t MortonCode(const Lattice& frame, const Vec3& x)
-{
-  const Vec3 index = frame.ToIndex(x);
-  std::uint64_t code = 0;
-  for (int a = 0; a < 3; ++a)
-  {
-    std::uint64_t bits = std::uint64_t(std::max(index[a], 0.0)) & 0x1FFFFF;
-    bits = (bits | bits << 32) & 0x1F00000000FFFF;
-    bits = (bits | bits << 16) & 0x1F0000FF0000FF;
-    bits = (bits | bits << 8) & 0x100F00F00F00F00F;
-    bits = (bits | bits << 4) & 0x10C30C30C30C30C3;
-    bits = (bits | bits << 2) & 0x1249249249249249;
-    code |= bits << a;
-  }
-  return code;
-}
-
-/// Orders the particles from `first` on along a space-filling curve, so that neighbours are near in memory too.
-/// Returns the new numbers of all.
-std::vector<std::int32_t> SortInSpace(const Lattice& frame, std::vector<Particle>& particles, Index first)
-{
-  std::vector<std::pair<std::uint64_t, Index>> order;
-  order.reserve(particles.size() - first);
-  for (Index n = first; n < Index(particles.size()); ++n)
-  {
-    order.emplace_back(MortonCode(frame, particles[n].Position), n);
-  }
-  std::sort(order.begin(), order.end());
-  std::vector<std::int32_t> numbers(particles.size());
-  std::iota(numbers.begin(), numbers.begin() + first, 0);
-  std::vector<Particle> sorted;
-  sorted.reserve(order.size());
-  for (const auto& [code, n] : order)
-  {
-    numbers[n] = std::int32_t(first + Index(sorted.size()));
-    sorted.push_back(particles[n]);
-  }
-  std::copy(sorted.begin(), sorted.end(), particles.begin() + first);
-  return numbers;
-}
 }
 
 SampleResult SampleCells(
-  const IndicatorSet& indicators, const Grid<float>& targetLength, const SampleOptions& options, const Monitor& monitor)
+  const IndicatorSet& indicators, const Grid<float>& targetLength, const SampleOptions& options, const Monitor& whole)
 {
   SampleResult result;
+  const Monitor monitor = whole.Part(0.0, options.Volume ? 0.6 : 1.0);
   const JunctionNetwork network = TraceJunctions(indicators, monitor.Part(0.0, 0.1));
   CurveSamples curves = SampleCurves(network, indicators, targetLength);
   const Index fixed = Index(curves.Particles.size());
@@ -90,8 +50,14 @@ SampleResult SampleCells(
       candidates.AddWhereFree(result.Particles, GapDistance);
     }
   }
-  result.CellCounts = { curves.ZeroCells, fixed - curves.ZeroCells, Index(result.Particles.size()) - fixed };
-  monitor.Step(1.0);
+  const Index surface = Index(result.Particles.size());
+  if (options.Volume)
+  {
+    PackVolume(indicators, targetLength, options.Packing, result.Particles, whole.Part(0.6, 1.0));
+  }
+  result.CellCounts = { curves.ZeroCells, fixed - curves.ZeroCells, surface - fixed,
+    Index(result.Particles.size()) - surface };
+  whole.Step(1.0);
   return result;
 }
 }

@@ -14,9 +14,13 @@ namespace LabelMesh
 inline constexpr double InteractionRange = 1.7320508075688772;
 
 /// True when particles on these cells see each other: `other` lies on the interface of a 2-cell particle's pair, and is
-/// no 2-cell particle of an opposite sheet.
+/// no 2-cell particle of an opposite sheet; or it lies in a 3-cell particle's material or on its boundary.
 inline bool Interact(const Particle& particle, const Particle& other)
 {
+  if (particle.CellDimension == 3)
+  {
+    return other.Materials.Contains(particle.Materials[0]);
+  }
   return other.Materials.Contains(particle.Materials[0]) && other.Materials.Contains(particle.Materials[1]) &&
     (other.CellDimension < 2 || particle.Normal.dot(other.Normal) > 0.0);
 }

@@ -98,49 +98,6 @@ void LowerRow(float* __restrict to, const float* __restrict from, int count, flo
   }
 }
 
-/// h(x) = min over y of h(y) + slope |x - y|: one sweep forwards and one backwards.
-void LimitGradient(const Lattice& lattice, double slope, std::vector<float>& h)
-{
-  const Chamfer chamfer(lattice.Spacing, slope);
-  const int nx = lattice.Dims[0], ny = lattice.Dims[1], nz = lattice.Dims[2];
-  const auto lower = [&](int j, int k, int sign)
-  {
-    float* row = h.data() + lattice.At(0, j, k);
-    for (const Chamfer::Row& vector : chamfer.Rows)
-    {
-      const int dx = sign * vector.Dx, y = j + sign * vector.Dy, z = k + sign * vector.Dz;
-      if (y >= 0 && y < ny && z >= 0 && z < nz)
-      {
-        const int first = std::max(0, -dx);
-        LowerRow(row + first, h.data() + lattice.At(first + dx, y, z), nx - std::abs(dx), vector.Rise);
-      }
-    }
-    return row;
-  };
-  for (int k = 0; k < nz; ++k)
-  {
-    for (int j = 0; j < ny; ++j)
-    {
-      float* row = lower(j, k, 1);
-      for (int i = 1; i < nx; ++i)
-      {
-        row[i] = std::min(row[i], row[i - 1] + chamfer.RiseX);
-      }
-    }
-  }
-  for (int k = nz - 1; k >= 0; --k)
-  {
-    for (int j = ny - 1; j >= 0; --j)
-    {
-      float* row = lower(j, k, -1);
-      for (int i = nx - 2; i >= 0; --i)
-      {
-        row[i] = std::min(row[i], row[i + 1] + chamfer.RiseX);
-      }
-    }
-  }
-}
-
 /// The user's bound on the working lattice.
 std::vector<float> SampleBound(const Lattice& working, const Grid<float>& user)
 {
@@ -406,6 +363,48 @@ Grid<float> SpreadFeatureSize(const Lattice& frame, const FeatureSizes& features
   }
   return sizes;
 }
+}
+
+void LimitGradient(const Lattice& lattice, double slope, std::vector<float>& h)
+{
+  const Chamfer chamfer(lattice.Spacing, slope);
+  const int nx = lattice.Dims[0], ny = lattice.Dims[1], nz = lattice.Dims[2];
+  const auto lower = [&](int j, int k, int sign)
+  {
+    float* row = h.data() + lattice.At(0, j, k);
+    for (const Chamfer::Row& vector : chamfer.Rows)
+    {
+      const int dx = sign * vector.Dx, y = j + sign * vector.Dy, z = k + sign * vector.Dz;
+      if (y >= 0 && y < ny && z >= 0 && z < nz)
+      {
+        const int first = std::max(0, -dx);
+        LowerRow(row + first, h.data() + lattice.At(first + dx, y, z), nx - std::abs(dx), vector.Rise);
+      }
+    }
+    return row;
+  };
+  for (int k = 0; k < nz; ++k)
+  {
+    for (int j = 0; j < ny; ++j)
+    {
+      float* row = lower(j, k, 1);
+      for (int i = 1; i < nx; ++i)
+      {
+        row[i] = std::min(row[i], row[i - 1] + chamfer.RiseX);
+      }
+    }
+  }
+  for (int k = nz - 1; k >= 0; --k)
+  {
+    for (int j = ny - 1; j >= 0; --j)
+    {
+      float* row = lower(j, k, -1);
+      for (int i = nx - 2; i >= 0; --i)
+      {
+        row[i] = std::min(row[i], row[i + 1] + chamfer.RiseX);
+      }
+    }
+  }
 }
 
 SizingResult ComputeSizing(

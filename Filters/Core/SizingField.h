@@ -48,6 +48,9 @@ struct SizingResult
 SizingResult ComputeSizing(
   const IndicatorSet& indicators, const SizingOptions& options, const Grid<float>* user, const Monitor& monitor);
 
+/// h(x) = min over y of h(y) + slope |x - y|, with the distance above: one sweep forwards and one backwards.
+void LimitGradient(const Lattice& lattice, double slope, std::vector<float>& h);
+
 /// About how many particles (vertices) a mesh with this sizing field has: the sum over label-changing grid edges of
 /// s A / (0.866 h^2), A the area of interface that such an edge stands for, s the share of a hexagonal packing that the
 /// sampling reaches, 0.78 to 1.23 by h in voxels (about 0.93 where h is a voxel). The number of triangles is about
