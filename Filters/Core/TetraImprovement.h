@@ -10,10 +10,10 @@ namespace LabelMesh
 {
 struct TetraImproveOptions
 {
-  int SmoothingPasses = 1;      ///< over all vertices inside materials
-  int Passes = 10;              ///< over the tetrahedra below WantedQuality, at most
-  double WantedQuality = 0.4;   ///< TetraQuality below which a tetrahedron is worked on
-  double InsertionBelow = 0.25; ///< TetraQuality below which, where all else fails, a vertex may be added
+  int SmoothingPasses = 1;     ///< over all vertices inside materials
+  int Passes = 10;             ///< over the tetrahedra below WantedQuality, at most
+  double WantedQuality = 0.4;  ///< TetraQuality below which a tetrahedron is worked on
+  double InsertionBelow = 0.3; ///< TetraQuality below which, where all else fails, a vertex may be added
 };
 
 struct TetraImproveResult
