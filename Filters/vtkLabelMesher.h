@@ -200,7 +200,7 @@ public:
   ///@}
 
   ///@{
-  /// vtkParticleSampleCells: growth of the length inside materials (0.3); its maximum, world units (0: none), for all
+  /// vtkParticleSampleCells: growth of the length inside materials (0.4); its maximum, world units (0: none), for all
   /// and for single materials.
   void SetVolumeGradation(double gradation);
   double GetVolumeGradation() const;

@@ -120,7 +120,7 @@ protected:
   int Sweeps = 20;
   int Seed = 1;
   bool SampleVolume = false;
-  double VolumeGradation = 0.3;
+  double VolumeGradation = 0.4;
   double VolumeMaximumLength = 0.0;
   std::map<vtkIdType, double> MaterialVolumeMaximumLengths;
   vtkIdType CellParticles[4] = { 0, 0, 0, 0 };

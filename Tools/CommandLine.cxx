@@ -360,7 +360,7 @@ Tetrahedra (with --tets):
   --tet-method packed   spheres packed inside the materials become their inner points (default)
   --tet-method tetgen   TetGen inserts inner points
   --tet-refine N        rounds of inserting points where packed slivers are (default 0)
-  --volume-gradation G  how fast edges grow inside (default 0.3)
+  --volume-gradation G  how fast edges grow inside (default 0.4)
   --volume-max-length L bound of the edge length inside (default: none)
 
 Both methods:

@@ -36,6 +36,37 @@ void Check(const PackOptions& options)
   }
 }
 
+/// Whether a sample has a neighbour, along an edge, face or diagonal, across an interface.
+bool IsNearInterface(const IndicatorSet& indicators, Index at)
+{
+  const Lattice& frame = indicators.Working();
+  const std::vector<MaterialId>& labels = indicators.Labels();
+  const auto c = frame.Coordinates(at);
+  for (int n = 0; n < 27; ++n)
+  {
+    const std::array<int, 3> to = { c[0] + n % 3 - 1, c[1] + n / 3 % 3 - 1, c[2] + n / 9 - 1 };
+    if (to[0] >= 0 && to[0] < frame.Dims[0] && to[1] >= 0 && to[1] < frame.Dims[1] && to[2] >= 0 &&
+      to[2] < frame.Dims[2] && indicators.HaveInterface(labels[at], labels[frame.At(to[0], to[1], to[2])]))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// The target length of the interface next to a sample, grown over the distance from it: half the difference of the two
+/// largest indicators.
+double LengthNearInterface(const IndicatorSet& indicators, const Grid<float>& targetLength, Index at, double gradation)
+{
+  const auto c = indicators.Working().Coordinates(at);
+  const Vec3 x = indicators.Working().Position(c[0], c[1], c[2]);
+  std::array<RankedMaterial, 2> ranked;
+  const bool two = indicators.Largest(x, 2, ranked.data()) == 2;
+  const double farthest = indicators.Working().Spacing.norm();
+  const double distance = two ? std::min(0.5 * (ranked[0].Value - ranked[1].Value), farthest) : farthest;
+  return targetLength.Trilinear(x) + gradation * distance;
+}
+
 /// Candidates inside the cells of one layer of the working lattice. A cell is the box of space around a sample.
 class VolumeCandidates
 {
@@ -168,17 +199,10 @@ Grid<float> VolumeLengths(const IndicatorSet& indicators, const Grid<float>& tar
     {
       for (Index at = frame.At(0, 0, first); at < frame.At(0, 0, last); ++at)
       {
-        const auto c = frame.Coordinates(at);
-        const MaterialId own = labels[at];
-        bool near = false;
-        for (int corner = 0; corner < 27 && !near; ++corner)
-        {
-          const std::array<int, 3> to = { c[0] + corner % 3 - 1, c[1] + corner / 3 % 3 - 1, c[2] + corner / 9 - 1 };
-          near = to[0] >= 0 && to[0] < frame.Dims[0] && to[1] >= 0 && to[1] < frame.Dims[1] && to[2] >= 0 &&
-            to[2] < frame.Dims[2] && indicators.HaveInterface(own, labels[frame.At(to[0], to[1], to[2])]);
-        }
-        const float atInterface = near ? float(targetLength.Trilinear(frame.Position(c[0], c[1], c[2]))) : Unbounded;
-        lengths.Values[at] = std::min(atInterface, maximumOf(own));
+        const float most = maximumOf(labels[at]);
+        lengths.Values[at] = IsNearInterface(indicators, at)
+          ? std::min(most, float(LengthNearInterface(indicators, targetLength, at, options.Gradation)))
+          : most;
       }
     });
   LimitGradient(frame, options.Gradation, lengths.Values);

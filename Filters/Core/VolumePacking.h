@@ -13,7 +13,7 @@ namespace LabelMesh
 {
 struct PackOptions
 {
-  double Gradation = 0.3;   ///< the largest |grad h| inside materials
+  double Gradation = 0.4;   ///< the largest |grad h| inside materials
   double MaximumLength = 0; ///< world length; 0: none
   /// World length per material, 0: none; empty: none at all.
   std::vector<double> MaterialMaximumLength;

@@ -16,7 +16,7 @@ namespace LabelMesh
 namespace
 {
 constexpr double ListRange = 1.25;       // neighbour lists reach so much farther than the interaction
-constexpr double ListedMove = 0.15;      // target lengths: lists are kept while particles have moved less on average
+constexpr double ListedMove = 0.2;       // target lengths: lists are kept while particles have moved less on average
 constexpr double Regularization = 0.05;  // of the trace of the Hessian
 constexpr double ShortestDistance = 0.2; // of the interaction range: nearer pairs repel no more strongly
 constexpr double SurfaceReach = 0.9; // target lengths: how far the plane at a 2-cell particle stands for the surface

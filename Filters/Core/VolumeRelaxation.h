@@ -14,13 +14,13 @@ namespace LabelMesh
 /// Distances in target lengths of the smaller one: at which two particles no longer interact (between the second and
 /// the third ring of a body-centred cubic lattice), and how high above the surface at a 2-cell particle those inside
 /// stay.
-inline constexpr double VolumeRange = 1.5;
+inline constexpr double VolumeRange = 1.2;
 inline constexpr double LeastHeight = 0.6;
 
 struct VolumeRelaxOptions
 {
   int Sweeps = 10;
-  double StepFactor = 1.0;  ///< of the Gauss-Newton step
+  double StepFactor = 1.3;  ///< of the Gauss-Newton step
   double Momentum = 0.5;    ///< of the previous step
   double LargestStep = 0.2; ///< target lengths
 };
