@@ -61,6 +61,12 @@ public:
     {
       this->Complex.Begin();
       const double after = edits[n]() ? this->Settle(ring, near) : before;
+      if (after == 0.0)
+      {
+        // Nothing is better, and what comes later has to be.
+        this->Complex.Commit();
+        return true;
+      }
       this->Complex.Rollback();
       if (after < best)
       {
