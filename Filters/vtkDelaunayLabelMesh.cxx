@@ -13,6 +13,8 @@
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
 
+#include <utility>
+
 vtkStandardNewMacro(vtkDelaunayLabelMesh);
 
 namespace
@@ -59,13 +61,13 @@ int vtkDelaunayLabelMesh::RequestData(
       if (particles->GetNumberOfPoints() > 0)
       {
         monitor.Step(0.0, "Reading the particles");
-        const std::vector<Particle> sites = ParticlesFromPolyData(particles, header);
+        std::vector<Particle> sites = ParticlesFromPolyData(particles, header);
         const IndicatorSet indicators = MakeIndicatorSet(collection, header);
         MeshOptions options;
         options.RepairRounds = this->RepairRounds;
         options.ImprovePasses = this->ImprovePasses;
         options.RepairBelow = this->RepairBelow;
-        result = MeshInterfaces(indicators, sites, options, monitor.Part(0.05, 0.9));
+        result = MeshInterfaces(indicators, std::move(sites), options, monitor.Part(0.05, 0.9));
       }
       this->NumberOfTetrahedra = result.Tetrahedra;
       this->RoundsDone = result.Rounds;
