@@ -16,6 +16,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <utility>
 
 vtkStandardNewMacro(vtkDelaunayLabelMesh);
 

@@ -14,7 +14,7 @@ struct Center
 };
 }
 
-BoxTree::BoxTree(const std::vector<Box>& boxes)
+BoxTree::BoxTree(std::vector<Box> boxes)
 {
   std::vector<Center> centers;
   centers.reserve(boxes.size());
@@ -66,13 +66,19 @@ BoxTree::BoxTree(const std::vector<Box>& boxes)
       });
     levels.push_back(std::move(next));
   }
+  // Of millions of boxes no copy lives longer than it must.
   this->Order.reserve(boxes.size());
-  this->Boxes.reserve(boxes.size());
   for (const Center& center : centers)
   {
     this->Order.push_back(center.Number);
-    this->Boxes.push_back(boxes[center.Number]);
   }
+  centers = {};
+  this->Boxes.reserve(boxes.size());
+  for (const Index number : this->Order)
+  {
+    this->Boxes.push_back(boxes[number]);
+  }
+  boxes = {};
   this->Nodes.resize(static_cast<std::size_t>(levels.back().back().Node) + 1);
   for (auto level = levels.rbegin(); level != levels.rend(); ++level)
   {

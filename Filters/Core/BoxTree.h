@@ -40,7 +40,7 @@ struct Box
 class BoxTree
 {
 public:
-  explicit BoxTree(const std::vector<Box>& boxes);
+  explicit BoxTree(std::vector<Box> boxes);
 
   Index Size() const { return Index(this->Order.size()); }
   /// The box at a position, and its number among those that were given.

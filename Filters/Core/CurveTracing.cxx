@@ -127,19 +127,31 @@ public:
 
   JunctionNetwork Run(const Monitor& monitor)
   {
+    monitor.Step(0.0, "Tracing junction curves");
     const std::vector<SeedCell> seeds = FindSeedCells(this->Indicators);
-    for (const SeedCell& seed : seeds)
+    // Steps are short, so that an abort is heeded soon.
+    const auto forEachSeed = [&seeds](const Monitor& part, auto&& body)
     {
-      this->SeedZeroCells(seed);
-    }
-    monitor.Step(0.2, "Tracing junction curves");
-    this->TraceFromZeroCells();
-    monitor.Step(0.6);
-    for (const SeedCell& seed : seeds)
-    {
-      this->SeedOneCells(seed);
-      this->TraceFromZeroCells(); // those that the new curve discovered
-    }
+      constexpr std::size_t seedsPerStep = 1024;
+      for (std::size_t first = 0; first < seeds.size(); first += seedsPerStep)
+      {
+        const double done = double(first) / double(seeds.size());
+        const Monitor here = part.Part(done, done);
+        here.Step(0.0);
+        for (std::size_t n = first; n < std::min(first + seedsPerStep, seeds.size()); ++n)
+        {
+          body(seeds[n], here);
+        }
+      }
+    };
+    forEachSeed(monitor.Part(0.0, 0.2), [this](const SeedCell& seed, const Monitor&) { this->SeedZeroCells(seed); });
+    this->TraceFromZeroCells(monitor.Part(0.2, 0.6));
+    forEachSeed(monitor.Part(0.6, 1.0),
+      [this](const SeedCell& seed, const Monitor& here)
+      {
+        this->SeedOneCells(seed);
+        this->TraceFromZeroCells(here); // those that the new curve discovered
+      });
     this->CountOpenEnds();
     monitor.Step(1.0);
     return std::move(this->Network);
@@ -230,10 +242,15 @@ private:
     }
   }
 
-  void TraceFromZeroCells()
+  void TraceFromZeroCells(const Monitor& monitor)
   {
+    constexpr Index cellsPerStep = 64;
     for (; this->NextZeroCell < Index(this->Network.ZeroCells.size()); ++this->NextZeroCell)
     {
+      if (this->NextZeroCell % cellsPerStep == 0)
+      {
+        monitor.Step(double(this->NextZeroCell) / double(this->Network.ZeroCells.size()));
+      }
       const ZeroCell cell = this->Network.ZeroCells[this->NextZeroCell];
       for (int leaving = 3; leaving >= 0; --leaving)
       {

@@ -36,8 +36,9 @@ void OrderForInsertion(std::vector<NumberedPoint>& points)
   CGAL::spatial_sort(points.begin(), points.end(), CGAL::Spatial_sort_traits_adapter_3<Kernel, Positions>(Positions()));
 }
 
-void Insert(const std::vector<NumberedPoint>& points, const Monitor& monitor, Triangulation& triangulation)
+void Insert(std::vector<NumberedPoint> points, const Monitor& monitor, Triangulation& triangulation)
 {
+  OrderForInsertion(points);
   Triangulation::Cell_handle near; // the last point's: the walk to the next one starts there
   for (std::size_t n = 0; n < points.size(); ++n)
   {
@@ -71,9 +72,8 @@ Tetrahedralization DelaunayTetrahedra(const std::vector<Vec3>& points, const Mon
   {
     numbered.emplace_back(Point(x[0], x[1], x[2]), std::int32_t(numbered.size()));
   }
-  OrderForInsertion(numbered);
   Triangulation triangulation;
-  Insert(numbered, monitor, triangulation);
+  Insert(std::move(numbered), monitor, triangulation);
   Tetrahedralization result;
   if (triangulation.dimension() < 3)
   {

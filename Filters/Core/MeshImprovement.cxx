@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshImprovement.h"
 
+#include "ManifoldLabels.h"
 #include "Parallel.h"
 #include "TriangleMending.h"
-#include "ManifoldLabels.h"
 #include "VertexSmoothing.h"
 
 #include <Eigen/Geometry>
@@ -95,12 +95,13 @@ Index FlipEdges(SurfaceComplex& complex, std::vector<char>& active)
 ImproveResult ImproveMesh(
   const IndicatorSet& indicators, SurfaceComplex& complex, const ImproveOptions& options, const Monitor& monitor)
 {
+  constexpr double smoothing = 0.5; // share of the work; the rest is mending
   ImproveResult result;
   std::vector<char> active(std::size_t(complex.NumberOfVertices()), 1);
   std::vector<std::vector<Index>> sets;
   for (int pass = 0; pass < options.Passes; ++pass)
   {
-    monitor.Step(double(pass) / options.Passes, "Improving triangles");
+    monitor.Step(smoothing * double(pass) / options.Passes, "Improving triangles");
     const Index flips = FlipEdges(complex, active);
     if (pass == 0 || flips > 0)
     {
@@ -109,7 +110,7 @@ ImproveResult ImproveMesh(
     result.Flips += flips;
     result.Moves += SmoothVertices(indicators, complex, sets, active);
   }
-  const MendResult mended = MendTriangles(indicators, complex, options.WantedRatio);
+  const MendResult mended = MendTriangles(indicators, complex, options.WantedRatio, monitor.Part(smoothing, 1.0));
   result.Mended = mended.Mended;
   monitor.Step(1.0);
   return result;

@@ -147,8 +147,13 @@ std::vector<Index> VerticesOfCuts(const SurfaceComplex& complex, const std::vect
   }
   std::vector<TriangleCorners> corners;
   std::vector<Index> subset;
-  for (const InterfaceTriangle& triangle : complex.AliveTriangles())
+  for (Index t = 0; t < complex.NumberOfTriangles(); ++t)
   {
+    if (!complex.IsAlive(t))
+    {
+      continue;
+    }
+    const InterfaceTriangle& triangle = complex.Triangle(t);
     if (std::any_of(triangle.Vertices.begin(), triangle.Vertices.end(),
           [&near](Index v) { return std::binary_search(near.begin(), near.end(), v); }))
     {

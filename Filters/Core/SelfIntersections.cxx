@@ -207,16 +207,16 @@ std::vector<Box> BoxesOf(const std::vector<Vec3>& points, const std::vector<Tria
   return boxes;
 }
 
-/// The boxes of the triangles `numbers`, in a tree, and the search for partners.
+/// The boxes of the triangles `numbers`, one for each, in a tree, and the search for partners.
 class Search
 {
 public:
-  Search(const std::vector<Vec3>& points, const std::vector<TriangleCorners>& triangles, const std::vector<Box>& boxes,
+  Search(const std::vector<Vec3>& points, const std::vector<TriangleCorners>& triangles, std::vector<Box> boxes,
     std::vector<Index> numbers)
     : Points(points)
     , Triangles(triangles)
     , Numbers(std::move(numbers))
-    , Tree(Chosen(boxes, this->Numbers))
+    , Tree(std::move(boxes))
   {
   }
 
@@ -237,17 +237,6 @@ public:
   }
 
 private:
-  static std::vector<Box> Chosen(const std::vector<Box>& boxes, const std::vector<Index>& numbers)
-  {
-    std::vector<Box> chosen;
-    chosen.reserve(numbers.size());
-    for (const Index number : numbers)
-    {
-      chosen.push_back(boxes[number]);
-    }
-    return chosen;
-  }
-
   void Partners(Index triangle, const Box& box, Index first, std::vector<std::array<Index, 2>>& pairs) const
   {
     this->Tree.VisitOverlaps(box, first,
@@ -292,19 +281,21 @@ bool TrianglesIntersect(const std::vector<Vec3>& points, const TriangleCorners& 
 
 SelfIntersections FindSelfIntersections(const std::vector<Vec3>& points, const std::vector<TriangleCorners>& triangles)
 {
-  const std::vector<Box> boxes = BoxesOf(points, triangles);
+  std::vector<Box> boxes = BoxesOf(points, triangles);
   std::vector<Index> numbers;
   numbers.reserve(boxes.size());
   for (std::size_t t = 0; t < boxes.size(); ++t)
   {
     if (!boxes[t].Empty())
     {
+      boxes[numbers.size()] = boxes[t];
       numbers.push_back(Index(t));
     }
   }
   SelfIntersections result;
   result.WithoutArea = Index(boxes.size() - numbers.size());
-  result.Pairs = Search(points, triangles, boxes, std::move(numbers)).All();
+  boxes.resize(numbers.size());
+  result.Pairs = Search(points, triangles, std::move(boxes), std::move(numbers)).All();
   return result;
 }
 
@@ -320,14 +311,16 @@ SelfIntersections FindSelfIntersections(
     result.WithoutArea += boxes[t].Empty() ? 1 : 0;
   }
   std::vector<Index> near;
+  std::vector<Box> nearBoxes;
   for (std::size_t t = 0; t < boxes.size(); ++t)
   {
     if (boxes[t].Overlaps(hull))
     {
       near.push_back(Index(t));
+      nearBoxes.push_back(boxes[t]);
     }
   }
-  result.Pairs = Search(points, triangles, boxes, std::move(near)).Of(subset, boxes);
+  result.Pairs = Search(points, triangles, std::move(nearBoxes), std::move(near)).Of(subset, boxes);
   return result;
 }
 }

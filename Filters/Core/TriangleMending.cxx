@@ -13,6 +13,8 @@ namespace LabelMesh
 {
 namespace
 {
+constexpr std::size_t TrianglesPerStep = 64; // some milliseconds each: how long an abort may wait
+
 constexpr int MostRounds = 4;      // an edit may make way for the next
 constexpr int SmoothingSweeps = 3; // after an edit
 constexpr double LeastTurn = 0.5;  // cosine between a triangle's normals before and after an edit
@@ -61,6 +63,12 @@ public:
     {
       this->Complex.Begin();
       const double after = edits[n]() ? this->Settle(ring, near) : before;
+      if (after == 0.0)
+      {
+        // Nothing is better, and what comes later has to be.
+        this->Complex.Commit();
+        return true;
+      }
       this->Complex.Rollback();
       if (after < best)
       {
@@ -228,7 +236,8 @@ private:
 };
 }
 
-MendResult MendTriangles(const IndicatorSet& indicators, SurfaceComplex& complex, double wantedRatio)
+MendResult MendTriangles(
+  const IndicatorSet& indicators, SurfaceComplex& complex, double wantedRatio, const Monitor& monitor)
 {
   MendResult result;
   TriangleMender mender(indicators, complex, wantedRatio);
@@ -236,8 +245,13 @@ MendResult MendTriangles(const IndicatorSet& indicators, SurfaceComplex& complex
   for (int round = 0; round < MostRounds && !bad.empty(); ++round)
   {
     const Index before = result.Mended;
-    for (const Index t : bad)
+    for (std::size_t n = 0; n < bad.size(); ++n)
     {
+      if (n % TrianglesPerStep == 0)
+      {
+        monitor.Step((round + double(n) / double(bad.size())) / MostRounds, "Mending triangles");
+      }
+      const Index t = bad[n];
       const bool stillBad = complex.IsAlive(t) && complex.Ratio(t) < wantedRatio;
       result.Mended += stillBad && mender.Mend(t);
     }

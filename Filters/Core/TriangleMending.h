@@ -4,6 +4,7 @@
 #define LabelMesh_Core_TriangleMending_h
 
 #include "IndicatorSet.h"
+#include "Monitor.h"
 #include "SurfaceComplex.h"
 
 #include <algorithm>
@@ -31,7 +32,8 @@ struct MendResult
 
 /// At each triangle below the wanted ratio every edge is collapsed, flipped and split in turn and the vertices around
 /// smoothed; the edit that leaves the least faults around is kept if that is less than before. Repeats while it helps.
-MendResult MendTriangles(const IndicatorSet& indicators, SurfaceComplex& complex, double wantedRatio);
+MendResult MendTriangles(
+  const IndicatorSet& indicators, SurfaceComplex& complex, double wantedRatio, const Monitor& monitor = {});
 }
 
 #endif

@@ -356,6 +356,8 @@ TEST(TriangleMending, JoinsTwoVerticesThatAreTooClose)
   SurfaceComplex complex({ particles, BuildInterface(*fields, particles).Faces });
   ASSERT_LT(QualityOf(complex).Worst, 0.2);
   const Index euler = EulerNumber(complex);
+  EXPECT_THROW(MendTriangles(*fields, complex, 0.5, Monitor([](double, const std::string&) { return true; })), Aborted);
+  EXPECT_EQ(EulerNumber(complex), euler);
   const MendResult result = MendTriangles(*fields, complex, 0.5);
   EXPECT_GT(result.Mended, 0);
   EXPECT_EQ(result.Left, 0);

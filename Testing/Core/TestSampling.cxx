@@ -231,11 +231,22 @@ TEST(SampleCells, ParticlesOfCurvesAreOrderedInSpaceAndCurvesFollowThem)
 TEST(SampleCells, StopsWhenItsMonitorSaysSo)
 {
   const SampledFields fields = TwoBalls();
-  int calls = 0;
-  EXPECT_THROW(SampleCells(*fields, Constant(2.0f), SampleOptions(),
-                 Monitor([&](double, const std::string&) { return ++calls == 3; })),
-    Aborted);
-  EXPECT_EQ(calls, 3);
+  // Whatever the step, progress grows until then and nothing is asked afterwards.
+  for (int last = 1; last < 12; ++last)
+  {
+    int calls = 0;
+    double before = 0.0;
+    EXPECT_THROW(SampleCells(*fields, Constant(2.0f), SampleOptions(),
+                   Monitor(
+                     [&](double fraction, const std::string&)
+                     {
+                       EXPECT_GE(fraction, before);
+                       before = fraction;
+                       return ++calls == last;
+                     })),
+      Aborted);
+    EXPECT_EQ(calls, last);
+  }
 }
 
 TEST(ProtectionBalls, HoldTheDiametralBallsOfTheSegments)
