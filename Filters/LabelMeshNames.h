@@ -30,6 +30,7 @@ inline constexpr char IndicatorKernel[] = "IndicatorKernel"; ///< string
 inline constexpr char MaskVolumes[] = "MaskVolumes";         ///< float64 x N, world length cubed
 inline constexpr char TightVolumes[] = "TightVolumes";       ///< float64 x N, world length cubed
 inline constexpr char KeptVolumes[] = "KeptVolumes";         ///< float64 x N, TightVolumes / MaskVolumes
+inline constexpr char KeptFromCutting[] = "KeptFromCutting"; ///< int64, see vtkDelaunayLabelMesh.h
 inline constexpr char IndicatorsRoot[] = "Indicators";       ///< root of a collection's assembly
 inline constexpr char SurfacesRoot[] = "Surfaces";
 inline constexpr char CatmullRom[] = "CatmullRom";

@@ -5,14 +5,18 @@
 #include "Core/MeshInterfaces.h"
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
+#include "LabelMeshNames.h"
 #include "MeshAdapter.h"
 
 #include <vtkDataObject.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -25,6 +29,7 @@ namespace
 using namespace LabelMesh;
 
 constexpr double PoorRatio = 0.3; // a mesh with a worse triangle gets a warning
+constexpr double ManyKept = 0.01; // of the vertices; so does one that could not be improved at more
 
 /// Takes the particles of 3-cells out.
 std::vector<InnerPoint> TakeInside(std::vector<Particle>& particles)
@@ -108,16 +113,24 @@ int vtkDelaunayLabelMesh::RequestData(
       this->NonManifoldEdges = result.NonManifoldEdges;
       this->NonManifoldVertices = result.NonManifoldVertices;
       this->WorstRadiusRatio = result.WorstRatio;
-      if (result.WrongFaces + result.NonManifoldEdges + result.NonManifoldVertices > 0 || result.WorstRatio < PoorRatio)
+      this->KeptFromCutting = result.KeptFromCutting;
+      if (result.WrongFaces + result.NonManifoldEdges + result.NonManifoldVertices > 0 ||
+        result.WorstRatio < PoorRatio || result.KeptFromCutting > ManyKept * double(result.Mesh.Vertices.size()))
       {
         vtkWarningMacro(
           "After " << result.Rounds << " rounds of repair the mesh has " << result.WrongFaces
                    << " faces between materials that are not at all their vertices, " << result.NonManifoldEdges
                    << " non-manifold edges, " << result.NonManifoldVertices
                    << " non-manifold vertices, and its worst triangle has a radius ratio of " << result.WorstRatio
-                   << ". A smaller Epsilon, FeatureSizeFloor or MinimumLength, or more RepairRounds may help.");
+                   << "; " << result.KeptFromCutting
+                   << " of its vertices were left as they were, since improved triangles there cut others. A smaller "
+                      "Epsilon, FeatureSizeFloor or MinimumLength, or more RepairRounds may help.");
       }
       InterfaceToPolyData(result.Mesh, header, output);
+      vtkNew<vtkTypeInt64Array> kept;
+      kept->SetName(Names::KeptFromCutting);
+      kept->InsertNextValue(result.KeptFromCutting);
+      output->GetFieldData()->AddArray(kept);
       SurfacesOfMaterials(output, surfaces);
       TetraResult filled;
       if (this->Tetrahedra != Off)
@@ -158,4 +171,5 @@ void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NonManifoldEdges: " << this->NonManifoldEdges << "\n";
   os << indent << "NonManifoldVertices: " << this->NonManifoldVertices << "\n";
   os << indent << "WorstRadiusRatio: " << this->WorstRadiusRatio << "\n";
+  os << indent << "KeptFromCutting: " << this->KeptFromCutting << "\n";
 }

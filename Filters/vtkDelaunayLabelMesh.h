@@ -18,7 +18,8 @@
  *  - cell data "RadiusRatio" (double): 2 r_in / r_circ, 1 for an equilateral triangle
  *  - point data "CellDimension" (uint8), "NumberOfMaterials" (uint8), "Materials" (int64 x 8, ascending, the rest
  *    repeats the last): of the particle
- *  - field data Labels, MaterialNames, MaterialColors, BackgroundLabel
+ *  - field data Labels, MaterialNames, MaterialColors, BackgroundLabel; "KeptFromCutting" (int64), see
+ *    GetKeptFromCutting
  *
  * Output port 1 (vtkPartitionedDataSetCollection, assembly root "Surfaces"): a block per material but the background,
  * ascending by label, NAME the material's: its closed surface, normals outward, with the points of port 0 to the last
@@ -91,8 +92,9 @@ public:
   /**
    * After an update: tetrahedra of the Delaunay triangulation; rounds of repair; and what repair left: faces whose two
    * materials are not in the sets of all their vertices, edges that a material's surface does not use exactly twice,
-   * vertices where it has more than one fan, and the smallest radius ratio. A warning gives these figures when a count
-   * is not zero or the ratio is below 0.3.
+   * vertices where it has more than one fan, and the smallest radius ratio; and vertices that improving left as they
+   * were, since improved triangles there cut others. A warning gives these figures when one of the first three counts
+   * is not zero, the ratio is below 0.3, or improving left more than a hundredth of the vertices.
    */
   vtkGetMacro(NumberOfTetrahedra, vtkIdType);
   vtkGetMacro(RoundsDone, int);
@@ -100,6 +102,7 @@ public:
   vtkGetMacro(NonManifoldEdges, vtkIdType);
   vtkGetMacro(NonManifoldVertices, vtkIdType);
   vtkGetMacro(WorstRadiusRatio, double);
+  vtkGetMacro(KeptFromCutting, vtkIdType);
   ///@}
 
   /// Where tetrahedra come from.
@@ -178,6 +181,7 @@ protected:
   vtkIdType NonManifoldEdges = 0;
   vtkIdType NonManifoldVertices = 0;
   double WorstRadiusRatio = 1.0;
+  vtkIdType KeptFromCutting = 0;
 
 private:
   vtkDelaunayLabelMesh(const vtkDelaunayLabelMesh&) = delete;

@@ -328,6 +328,10 @@ void AddHead(const ReportInput& input, vtkTable* totals, Json& json)
     "worst_triangle", Worst(count("WorstTriangle"), Position(totals->GetFieldData()->GetArray("WorstPosition"), 0)));
   json.Integer("duplicate_triangles", count("DuplicateTriangles"));
   json.Integer("degenerate_triangles", count("DegenerateTriangles")).Integer("wrong_faces", count("WrongFaces"));
+  if (vtkDataArray* kept = input.Mesh->GetFieldData()->GetArray("KeptFromCutting"))
+  {
+    json.Integer("kept_from_cutting", static_cast<long long>(kept->GetComponent(0, 0)));
+  }
   json.Integer("self_intersecting_pairs", count("SelfIntersectingPairs"));
   json.Integer("self_intersecting_triangles", count("SelfIntersectingTriangles"));
   json.Integer("misclassified_voxels", count("MisclassifiedVoxels"));

@@ -41,7 +41,8 @@ std::vector<std::string> Verdict(const ReportInput& input, vtkLabelMeshReport* r
 /// One JSON object:
 ///  input, dimensions, spacing, method, certified, certificate (a sentence), points, triangles, min_radius_ratio,
 ///  p1_radius_ratio, mean_radius_ratio, worst_triangle {triangle, position}, duplicate_triangles,
-///  degenerate_triangles, wrong_faces, self_intersecting_pairs, self_intersecting_triangles, misclassified_voxels,
+///  degenerate_triangles, wrong_faces, kept_from_cutting (particle method), self_intersecting_pairs,
+///  self_intersecting_triangles, misclassified_voxels,
 ///  distance_to_voxels {mean, max, far_points} (with an error map),
 ///  materials [{label, name, triangles, vertices, min_radius_ratio, mean_radius_ratio, worst_triangle, certified,
 ///    closed, manifold, edge_manifold, vertex_manifold, oriented, open_edges, nonmanifold_edges, nonmanifold_vertices,

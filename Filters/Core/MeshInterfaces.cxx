@@ -4,8 +4,8 @@
 #include "ChordCorrection.h"
 #include "LocalRepair.h"
 #include "ManifoldLabels.h"
+#include "MeshCuts.h"
 #include "MeshImprovement.h"
-#include "SelfIntersections.h"
 #include "TetraLabeling.h"
 
 #include <memory>
@@ -136,84 +136,6 @@ void CallBackground(MaterialId background, InterfaceMesh& mesh)
   }
 }
 
-/// The vertices of triangles that cut each other, ascending; where `near` is not empty (ascending), only of cuts with
-/// triangles at those vertices.
-std::vector<Index> VerticesOfCuts(const SurfaceComplex& complex, const std::vector<Index>& near = {})
-{
-  std::vector<Vec3> points;
-  for (const Particle& p : complex.AllVertices())
-  {
-    points.push_back(p.Position);
-  }
-  std::vector<TriangleCorners> corners;
-  std::vector<Index> subset;
-  for (Index t = 0; t < complex.NumberOfTriangles(); ++t)
-  {
-    if (!complex.IsAlive(t))
-    {
-      continue;
-    }
-    const InterfaceTriangle& triangle = complex.Triangle(t);
-    if (std::any_of(triangle.Vertices.begin(), triangle.Vertices.end(),
-          [&near](Index v) { return std::binary_search(near.begin(), near.end(), v); }))
-    {
-      subset.push_back(Index(corners.size()));
-    }
-    corners.push_back(triangle.Vertices);
-  }
-  const SelfIntersections found =
-    near.empty() ? FindSelfIntersections(points, corners) : FindSelfIntersections(points, corners, subset);
-  std::vector<Index> vertices;
-  for (const auto& pair : found.Pairs)
-  {
-    for (const Index t : pair)
-    {
-      vertices.insert(vertices.end(), corners[t].begin(), corners[t].end());
-    }
-  }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
-
-/// Puts what is around cuts back to what it was before it was improved, triangles and positions. False, and the
-/// improved mesh is of no use, where that does not fit what is around it now, or leaves a poor triangle or a cut.
-bool PutBack(const SurfaceComplex& before, const std::vector<Index>& cuts, SurfaceComplex& improved)
-{
-  std::vector<Index> core = cuts;
-  for (const SurfaceComplex* complex : { &before, static_cast<const SurfaceComplex*>(&improved) })
-  {
-    for (const Index v : cuts)
-    {
-      const std::vector<Index> around = v < complex->NumberOfVertices() ? complex->Neighbors(v) : std::vector<Index>();
-      core.insert(core.end(), around.begin(), around.end());
-    }
-  }
-  std::sort(core.begin(), core.end());
-  core.erase(std::unique(core.begin(), core.end()), core.end());
-  std::vector<InterfaceTriangle> triangles;
-  for (const std::int32_t t : before.TrianglesAt(core))
-  {
-    triangles.push_back(before.Triangle(t));
-  }
-  if (!improved.Fits(core, triangles))
-  {
-    return false;
-  }
-  improved.ReplaceStars(core, triangles);
-  for (const Index v : core)
-  {
-    if (v < before.NumberOfVertices())
-    {
-      improved.SetVertex(v, before.Vertex(v));
-    }
-  }
-  const std::vector<std::int32_t> replaced = improved.TrianglesAt(core);
-  return std::all_of(
-           replaced.begin(), replaced.end(), [&](std::int32_t t) { return improved.Ratio(t) >= PoorRatio; }) &&
-    VerticesOfCuts(improved, core).empty();
-}
-
 /// Improves the mesh and corrects its chords. The faces of Delaunay tetrahedra do not cut each other: where improved
 /// ones do, the mesh is put back to what it was; where that cannot be done it stays there as it was while the rest is
 /// improved again.
@@ -234,9 +156,9 @@ void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex,
       CorrectChords(indicators, improved, options.RepairBelow);
     }
     std::vector<Index> frozen = VerticesOfCuts(improved);
-    result.KeptFromCutting += Index(frozen.size());
-    if (frozen.empty() || PutBack(complex, frozen, improved))
+    if (frozen.empty() || PutBack(complex, frozen, PoorRatio, improved))
     {
+      result.KeptFromCutting = Index(frozen.size()) + complex.NumberOfFrozen();
       complex = std::move(improved);
       return;
     }
@@ -253,6 +175,7 @@ void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex,
       frozen.swap(around);
     }
   }
+  result.KeptFromCutting = complex.NumberOfVertices(); // nothing could be improved
 }
 }
 
@@ -269,6 +192,7 @@ MeshResult MeshInterfaces(
   RepairFaults(indicators, complex, options, result, monitor.Part(0.5, 0.6));
   ImproveWithoutCuts(indicators, complex, options, result, monitor.Part(0.6, 0.9));
   result.Mesh = std::move(complex).Compacted();
+  result.KeptFromCutting = std::min(result.KeptFromCutting, Index(result.Mesh.Vertices.size()));
   if (indicators.Border())
   {
     CallBackground(indicators.Background(), result.Mesh);

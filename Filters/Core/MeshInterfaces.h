@@ -28,7 +28,7 @@ struct MeshResult
   Index BadTriangles = 0;        ///< below RepairBelow
   double WorstRatio = 1.0;
   int Rounds = 0;            ///< of repair
-  Index KeptFromCutting = 0; ///< vertices that were not improved because their triangles would have cut others
+  Index KeptFromCutting = 0; ///< vertices left as they were, since improved triangles there cut others
 };
 
 /// Delaunay tetrahedra of the particles, their labels, and the faces between different labels (paper, section 5.3);

@@ -137,6 +137,11 @@ Vec3 SurfaceComplex::UnitNormal(Index t) const
   return (this->Vertices[v[1]].Position - a).cross(this->Vertices[v[2]].Position - a).stableNormalized();
 }
 
+Index SurfaceComplex::NumberOfFrozen() const
+{
+  return Index(std::count(this->Frozen.begin(), this->Frozen.end(), char(1)));
+}
+
 void SurfaceComplex::SetVertex(Index v, const Particle& particle)
 {
   this->Save(v);

@@ -49,6 +49,7 @@ public:
   /// From now on the vertex and its triangles take part in no edit: Flip, Collapse and Split return false there.
   void Freeze(Index v) { this->Frozen[v] = 1; }
   bool IsFrozen(Index v) const { return this->Frozen[v]; }
+  Index NumberOfFrozen() const;
 
   /// Moves a vertex. Vertices that share no triangle may be moved by several threads while nothing is recorded.
   void SetVertex(Index v, const Particle& particle);

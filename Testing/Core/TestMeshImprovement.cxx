@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticFields.h"
 #include "ManifoldLabels.h"
+#include "MeshCuts.h"
 #include "MeshImprovement.h"
 #include "Parallel.h"
 #include "ParticleSystem.h"
@@ -364,4 +365,110 @@ TEST(TriangleMending, JoinsTwoVerticesThatAreTooClose)
   EXPECT_GE(QualityOf(complex).Worst, 0.5);
   EXPECT_EQ(EulerNumber(complex), euler);
   ExpectSound(complex);
+}
+
+namespace
+{
+/// A ball's mesh, and the same with a vertex pulled through the far side and another, at a right angle to it, moved a
+/// little.
+struct CutBall
+{
+  SampledFields Fields{ Frame, { Not(Ball(Centre, Radius)), Ball(Centre, Radius) } };
+  SurfaceComplex Before = Sampled(Fields, 2.5f);
+  SurfaceComplex Improved = Before;
+  Index Pulled = 0, Moved = 0;
+
+  CutBall()
+  {
+    const Vec3 radius = this->Before.Vertex(this->Pulled).Position - Centre;
+    this->Moved = this->Nearest(radius.unitOrthogonal());
+    this->Move(this->Moved, this->Before.Vertex(this->Moved).Position + Vec3(0.01, 0, 0));
+    this->Move(this->Pulled, Centre - 1.3 * radius);
+  }
+
+  void Move(Index v, const Vec3& x)
+  {
+    Particle moved = this->Improved.Vertex(v);
+    moved.Position = x;
+    this->Improved.SetVertex(v, moved);
+  }
+  Index Nearest(const Vec3& direction) const
+  {
+    Index nearest = 0;
+    const Vec3 x = Centre + Radius * direction;
+    for (Index v = 0; v < this->Before.NumberOfVertices(); ++v)
+    {
+      nearest =
+        (this->Before.Vertex(v).Position - x).norm() < (this->Before.Vertex(nearest).Position - x).norm() ? v : nearest;
+    }
+    return nearest;
+  }
+};
+
+std::set<std::array<Index, 3>> SortedTriangles(const SurfaceComplex& complex)
+{
+  std::set<std::array<Index, 3>> triangles;
+  for (InterfaceTriangle t : complex.AliveTriangles())
+  {
+    std::sort(t.Vertices.begin(), t.Vertices.end());
+    triangles.insert(t.Vertices);
+  }
+  return triangles;
+}
+}
+
+TEST(MeshCuts, FindsTheVerticesOfTrianglesThatCut)
+{
+  const CutBall ball;
+  EXPECT_TRUE(VerticesOfCuts(ball.Before).empty());
+  const std::vector<Index> cuts = VerticesOfCuts(ball.Improved);
+  EXPECT_TRUE(std::binary_search(cuts.begin(), cuts.end(), ball.Pulled));
+  EXPECT_FALSE(std::binary_search(cuts.begin(), cuts.end(), ball.Moved));
+  EXPECT_EQ(VerticesOfCuts(ball.Improved, { ball.Pulled }), cuts);
+  EXPECT_TRUE(VerticesOfCuts(ball.Improved, { ball.Moved }).empty());
+}
+
+TEST(MeshCuts, PutsBackWhatIsAroundThemAndNothingElse)
+{
+  CutBall ball;
+  // The edit that is put back may have changed triangles, too.
+  const Index neighbor = ball.Improved.Neighbors(ball.Pulled).front();
+  ASSERT_TRUE(ball.Improved.Flip(ball.Pulled, neighbor));
+  const std::vector<Index> cuts = VerticesOfCuts(ball.Improved);
+  ASSERT_FALSE(cuts.empty());
+  ASSERT_TRUE(PutBack(ball.Before, cuts, 0.5, ball.Improved));
+  EXPECT_TRUE(VerticesOfCuts(ball.Improved).empty());
+  EXPECT_EQ(ball.Improved.Vertex(ball.Pulled).Position, ball.Before.Vertex(ball.Pulled).Position);
+  EXPECT_NE(ball.Improved.Vertex(ball.Moved).Position, ball.Before.Vertex(ball.Moved).Position);
+  EXPECT_EQ(SortedTriangles(ball.Improved), SortedTriangles(ball.Before));
+  EXPECT_EQ(EulerNumber(ball.Improved), 2);
+}
+
+TEST(MeshCuts, SaysWhereWhatWasThereDoesNotFit)
+{
+  // An edge of the rim flipped: the old triangles have no edge to end at.
+  CutBall flipped;
+  const std::vector<Index> cuts = VerticesOfCuts(flipped.Improved);
+  std::set<Index> core(cuts.begin(), cuts.end());
+  for (const Index v : cuts)
+  {
+    const std::vector<Index> around = flipped.Before.Neighbors(v);
+    core.insert(around.begin(), around.end());
+  }
+  const auto isOutside = [&core](Index v) { return core.count(v) == 0; };
+  bool done = false;
+  for (const std::int32_t t : flipped.Improved.TrianglesAt({ core.begin(), core.end() }))
+  {
+    const auto v = flipped.Improved.Triangle(t).Vertices;
+    for (int c = 0; c < 3 && !done; ++c)
+    {
+      done = isOutside(v[c]) && isOutside(v[(c + 1) % 3]) && flipped.Improved.Flip(v[c], v[(c + 1) % 3]);
+    }
+  }
+  ASSERT_TRUE(done);
+  EXPECT_FALSE(PutBack(flipped.Before, cuts, 0.5, flipped.Improved));
+
+  // Hardly any triangle is as good as that.
+  CutBall poor;
+  EXPECT_FALSE(PutBack(poor.Before, VerticesOfCuts(poor.Improved), 0.999, poor.Improved));
 }

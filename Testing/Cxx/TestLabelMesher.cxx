@@ -92,6 +92,9 @@ TEST(LabelMesher, TwoSpheres)
     EXPECT_EQ(material.Euler, 2);
   }
   EXPECT_EQ(check.WrongFaces + check.DuplicateTriangles + check.SameMaterialTriangles, 0);
+  vtkDataArray* kept = mesher->GetOutput()->GetFieldData()->GetArray(Names::KeptFromCutting);
+  ASSERT_NE(kept, nullptr);
+  EXPECT_EQ(kept->GetComponent(0, 0), 0) << "improving it was possible everywhere";
   EXPECT_GE(check.Quality.MinRadiusRatio, 0.5);
   EXPECT_GE(check.Quality.MeanRadiusRatio, 0.93);
   const double sphere = 4.0 / 3.0 * M_PI * std::pow(17.0, 3);
