@@ -267,6 +267,7 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
   {
     mesher->SetTetrahedra(line.TetsByTetGen ? vtkDelaunayLabelMesh::TetGen : vtkDelaunayLabelMesh::Packed);
     mesher->SetRefinementRounds(line.TetRefinementRounds);
+    mesher->SetTetraImprovePasses(line.TetImprovePasses.value_or(mesher->GetTetraImprovePasses()));
     set(line.VolumeGradation, &vtkLabelMesher::SetVolumeGradation);
     set(line.VolumeMaximumLength, &vtkLabelMesher::SetVolumeMaximumLength);
   }

@@ -385,18 +385,6 @@ void CheckVolumes(const TetraMesh& mesh)
 }
 }
 
-double TetraRadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
-{
-  // r_in = 3 V / S; r_circ = |num| / (12 V), num = |d'|^2 (b' x c') + ... with edges from a.
-  const Vec3 u = b - a, v = c - a, w = d - a;
-  const Vec3 uv = u.cross(v), vw = v.cross(w), wu = w.cross(u);
-  const double six = uv.dot(w);
-  const double areas = 0.5 * (uv.norm() + vw.norm() + wu.norm() + (v - u).cross(w - u).norm());
-  const double product = (w.squaredNorm() * uv + u.squaredNorm() * vw + v.squaredNorm() * wu).norm();
-  const double scale = areas * product;
-  return scale > 0.0 ? 3.0 * six * std::abs(six) / scale : 0.0;
-}
-
 TetraResult FillWithTetrahedra(const InterfaceMesh& surface, MaterialId background,
   const std::vector<InnerPoint>& inside, const TetraOptions& options, const Monitor& monitor)
 {
