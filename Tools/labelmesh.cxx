@@ -411,6 +411,7 @@ void MeshVolume(const CommandLine& line)
     }
     report.Particles = mesher->GetParticles();
     report.Tightened = mesher->GetLabelImage();
+    report.Tetrahedra = line.Tets.empty() ? nullptr : mesher->GetTetrahedraOutput();
   }
   report.Mesh = line.Grid ? grid->GetOutput() : mesher->GetOutput();
   report.Surfaces = line.Grid ? grid->GetSurfaces() : mesher->GetSurfaces();

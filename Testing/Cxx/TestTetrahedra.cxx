@@ -6,6 +6,7 @@
 #include "TestCollections.h"
 #include "TestMeshes.h"
 #include "vtkDelaunayLabelMesh.h"
+#include "vtkLabelMeshReport.h"
 #include "vtkLabelMesher.h"
 
 #include <vtkCellArray.h>
@@ -13,8 +14,11 @@
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkPolyData.h>
+#include <vtkNew.h>
 #include <vtkSMPTools.h>
+#include <vtkTable.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtkVariant.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -292,6 +296,51 @@ TEST(Tetrahedra, AreImprovedToSimulationQuality)
     EXPECT_GE(least, 12.0);
     EXPECT_LE(most, 155.0);
   }
+}
+
+TEST(Tetrahedra, AreReported)
+{
+  const auto mesher = Filled(TwoSpheres(40));
+  vtkNew<vtkLabelMeshReport> report;
+  report->SetInputData(0, mesher->GetOutput());
+  report->Update();
+  EXPECT_EQ(report->GetTetrahedraOutput()->GetNumberOfRows(), 0) << "without tetrahedra";
+  report->SetInputData(5, mesher->GetTetrahedraOutput());
+  report->Update();
+  const Tetrahedra tets(mesher->GetTetrahedraOutput());
+  vtkTable* table = report->GetTetrahedraOutput();
+  const auto total = [table](const char* name) { return table->GetFieldData()->GetArray(name)->GetComponent(0, 0); };
+  EXPECT_EQ(total("Tetrahedra"), double(tets.Corners.size()));
+  EXPECT_EQ(total("TurnedOver"), 0.0);
+  EXPECT_EQ(total("Slivers"), double(tets.Slivers()));
+  EXPECT_NEAR(total("MeanRadiusRatio"), tets.MeanRatio(), 1e-9);
+  EXPECT_NEAR(total("MinRadiusRatio"), *std::min_element(tets.Ratios.begin(), tets.Ratios.end()), 1e-9);
+  // The volumes are those that the report finds for the surfaces.
+  vtkTable* surfaces = report->GetOutput();
+  ASSERT_EQ(table->GetNumberOfRows() + 1, surfaces->GetNumberOfRows());
+  double count = 0.0;
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    EXPECT_EQ(table->GetValueByName(row, "Label"), surfaces->GetValueByName(row + 1, "Label"));
+    EXPECT_EQ(table->GetValueByName(row, "Name"), surfaces->GetValueByName(row + 1, "Name"));
+    const double volume = surfaces->GetValueByName(row + 1, "Volume").ToDouble();
+    EXPECT_NEAR(table->GetValueByName(row, "Volume").ToDouble(), volume, 1e-9 * volume);
+    count += table->GetValueByName(row, "Tetrahedra").ToDouble();
+  }
+  EXPECT_EQ(count, total("Tetrahedra"));
+  vtkTable* dihedrals = report->GetDihedralsOutput();
+  ASSERT_EQ(dihedrals->GetNumberOfRows(), 18);
+  double angles = 0.0;
+  for (vtkIdType bin = 0; bin < 18; ++bin)
+  {
+    const double all = dihedrals->GetValueByName(bin, "Angles").ToDouble();
+    angles += all;
+    EXPECT_EQ(dihedrals->GetValueByName(bin, "From").ToDouble(), 10.0 * double(bin));
+    EXPECT_EQ(
+      dihedrals->GetValueByName(bin, "Angles_1").ToDouble() + dihedrals->GetValueByName(bin, "Angles_2").ToDouble(),
+      all);
+  }
+  EXPECT_EQ(angles, 6.0 * total("Tetrahedra"));
 }
 
 TEST(Tetrahedra, LeaveTheSurfaceAsItIs)
