@@ -458,6 +458,16 @@ double vtkLabelMesher::GetMinimumDihedral() const
   return this->Stages->Mesh->GetMinimumDihedral();
 }
 
+void vtkLabelMesher::SetTetraImprovePasses(int passes)
+{
+  this->Stages->Mesh->SetTetraImprovePasses(passes);
+}
+
+int vtkLabelMesher::GetTetraImprovePasses() const
+{
+  return this->Stages->Mesh->GetTetraImprovePasses();
+}
+
 void vtkLabelMesher::SetVolumeGradation(double gradation)
 {
   this->Stages->Sample->SetVolumeGradation(gradation);

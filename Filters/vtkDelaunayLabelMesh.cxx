@@ -3,6 +3,7 @@
 
 #include "Core/ConstrainedDelaunay.h"
 #include "Core/MeshInterfaces.h"
+#include "Core/TetraImprovement.h"
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
@@ -141,7 +142,13 @@ int vtkDelaunayLabelMesh::RequestData(
         fill.RadiusEdgeRatio = this->RadiusEdgeRatio;
         fill.MinimumDihedral = this->MinimumDihedral;
         inside.resize(fill.Refine ? 0 : inside.size());
-        filled = FillWithTetrahedra(result.Mesh, background, inside, fill, monitor.Part(0.6, 0.95));
+        filled = FillWithTetrahedra(result.Mesh, background, inside, fill, monitor.Part(0.6, 0.85));
+      }
+      if (!filled.Mesh.Corners.empty() && this->TetraImprovePasses > 0)
+      {
+        TetraImproveOptions improve;
+        improve.Passes = this->TetraImprovePasses;
+        ImproveTetrahedra(filled.Mesh, improve, monitor.Part(0.85, 0.95));
       }
       this->InnerPointsLeftOut = filled.LeftOut;
       this->InnerPointsAdded = filled.Added;
@@ -162,6 +169,7 @@ void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RefinementRounds: " << this->RefinementRounds << "\n";
   os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
   os << indent << "MinimumDihedral: " << this->MinimumDihedral << "\n";
+  os << indent << "TetraImprovePasses: " << this->TetraImprovePasses << "\n";
   os << indent << "InnerPointsLeftOut: " << this->InnerPointsLeftOut << "\n";
   os << indent << "InnerPointsAdded: " << this->InnerPointsAdded << "\n";
   os << indent << "CircumcentresInserted: " << this->CircumcentresInserted << "\n";

@@ -144,6 +144,14 @@ public:
   ///@}
 
   ///@{
+  /// Passes of improvement over the tetrahedra that are badly shaped, at most; the worst first: their vertices inside
+  /// move, edges and faces are flipped, vertices are taken out and put in. The triangles of port 0 stay as they are.
+  /// It ends when nothing helps any more. 0 leaves the tetrahedra as TetGen made them. Default 10.
+  vtkSetClampMacro(TetraImprovePasses, int, 0, 1000);
+  vtkGetMacro(TetraImprovePasses, int);
+  ///@}
+
+  ///@{
   /// After an update with tetrahedra: particles inside that were too near to the interface and left out; points that
   /// TetGen added inside; circumcentres that became points.
   vtkGetMacro(InnerPointsLeftOut, vtkIdType);
@@ -172,6 +180,7 @@ protected:
   int RefinementRounds = 0;
   double RadiusEdgeRatio = 1.4;
   double MinimumDihedral = 0.0;
+  int TetraImprovePasses = 10;
   vtkIdType InnerPointsLeftOut = 0;
   vtkIdType InnerPointsAdded = 0;
   vtkIdType CircumcentresInserted = 0;

@@ -5,6 +5,7 @@
 #include "LabelMeshNames.h"
 #include "ReportFacts.h"
 #include "ReportTables.h"
+#include "TetraReport.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -19,6 +20,7 @@
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -43,15 +45,16 @@ void FillErrorMap(vtkPolyData* mesh, const std::vector<double>& distances, vtkPo
 
 vtkLabelMeshReport::vtkLabelMeshReport()
 {
-  this->SetNumberOfInputPorts(5);
-  this->SetNumberOfOutputPorts(4);
+  this->SetNumberOfInputPorts(6);
+  this->SetNumberOfOutputPorts(6);
   this->SetInputArrayToProcess(
     0, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
 }
 
 int vtkLabelMeshReport::FillInputPortInformation(int port, vtkInformation* info)
 {
-  const char* const types[] = { "vtkPolyData", "vtkImageData", "vtkDataObject", "vtkImageData", "vtkPolyData" };
+  const char* const types[] = { "vtkPolyData", "vtkImageData", "vtkDataObject", "vtkImageData", "vtkPolyData",
+    "vtkUnstructuredGrid" };
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), types[port]);
   if (port > 0)
   {
@@ -109,6 +112,12 @@ int vtkLabelMeshReport::RequestData(
         fill[port](table, facts);
         AddTotals(table->GetFieldData(), facts);
       }
+      if (vtkUnstructuredGrid* tetrahedra = vtkUnstructuredGrid::GetData(inputVector[5], 0))
+      {
+        const TetraReport report = ReportOfTetrahedra(tetrahedra);
+        FillTetrahedra(vtkTable::GetData(outputVector, 4), report);
+        FillDihedrals(vtkTable::GetData(outputVector, 5), report);
+      }
       if (this->ErrorMap)
       {
         monitor.Step(0.9, "Measuring distances");
@@ -126,6 +135,16 @@ int vtkLabelMeshReport::RequestData(
 vtkPolyData* vtkLabelMeshReport::GetErrorMapOutput()
 {
   return vtkPolyData::SafeDownCast(this->GetOutputDataObject(3));
+}
+
+vtkTable* vtkLabelMeshReport::GetTetrahedraOutput()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(4));
+}
+
+vtkTable* vtkLabelMeshReport::GetDihedralsOutput()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(5));
 }
 
 void vtkLabelMeshReport::PrintSelf(ostream& os, vtkIndent indent)

@@ -22,6 +22,9 @@
  * Input port 3 (vtkImageData): point array "Label", rebuilt from the indicators: port 1 of vtkIndicatorReconstruct.
  * Input port 4 (vtkPolyData): the particles, with Materials and NumberOfMaterials.
  *
+ * Input port 5 (vtkUnstructuredGrid, optional): tetrahedra with the cell array "Label", as vtkDelaunayLabelMesh makes
+ * them.
+ *
  * Output port 0 (vtkTable), a row per material, ascending by label, the background among them:
  *  - "Label" (int64), "Name" (string)
  *  - "Triangles", "Vertices" (int64)
@@ -67,17 +70,32 @@
  * length): to the nearest face of voxels between two labels that are both around the point; NaN where there is none
  * within 16 voxels.
  *
- * Field data of the tables (one value each): "Points", "Triangles" (int64, each triangle once), "MinRadiusRatio",
- * "FirstPercentileRadiusRatio" (one triangle in a hundred is below), "MeanRadiusRatio" (double), "WorstTriangle",
- * "WorstPosition", "DuplicateTriangles" (more triangles than one on the same three points),
+ * Output port 4 (vtkTable), of the tetrahedra, a row per material that is not the background, ascending by label; empty
+ * without input 5:
+ *  - "Label" (int64), "Name" (string)
+ *  - "Tetrahedra", "TurnedOver" (of no or negative volume), "Slivers" (radius ratio below 0.1) (int64)
+ *  - "MinRadiusRatio", "FirstPercentileRadiusRatio" (one in a hundred is below), "MeanRadiusRatio" (double): of
+ *    3 r_in / r_circ, 1 for a regular tetrahedron; also reported for no tetrahedron at all
+ *  - "MinDihedral", "MaxDihedral" (double, degrees): of the angles between faces; NaN for no tetrahedron at all
+ *  - "Volume" (double, world length cubed): the sum over the tetrahedra
+ *  - "WorstTetrahedron" (int64, its cell; -1: none): the least radius ratio
+ * and each of these but Label and Name as field data, for all tetrahedra together.
+ *
+ * Output port 5 (vtkTable), 18 rows: how many dihedral angles, six of each tetrahedron, are in 10 degrees each; empty
+ * without input 5:
+ *  - "From", "To" (double, degrees); "Angles" (int64) of all, "Angles_<label>" (int64) of each material
+ *
+ * Field data of the tables of ports 0 to 2 (one value each): "Points", "Triangles" (int64, each triangle once),
+ * "MinRadiusRatio", "FirstPercentileRadiusRatio" (one triangle in a hundred is below), "MeanRadiusRatio" (double),
+ * "WorstTriangle", "WorstPosition", "DuplicateTriangles" (more triangles than one on the same three points),
  * "DegenerateTriangles" (ratio below 1e-10), "SameLabelTriangles" (left out of everything else), "WrongFaces" (whose
  * two labels are not in the Materials of all their points), "SelfIntersectingPairs", "SelfIntersectingTriangles",
  * "Certified" (1: no fault of any kind) (int64), "Certificate" (string: that in a sentence, or all that is wrong); with
  * input 1 "MisclassifiedVoxels", and "UndecidedVoxels" among them: in no material or in several (int64); with ErrorMap
  * "MeanDistanceToVoxels", "MaxDistanceToVoxels" (double, world length), "FarPoints" (int64): those without a distance.
  *
- * Errors: cells that are no triangles, no BoundaryLabels, an image without integer labels, ErrorMap without an image.
- * An empty mesh gives a report of what was lost.
+ * Errors: cells that are no triangles, no BoundaryLabels, tetrahedra without Label, an image without integer labels,
+ * ErrorMap without an image. An empty mesh gives a report of what was lost.
  */
 #ifndef vtkLabelMeshReport_h
 #define vtkLabelMeshReport_h
@@ -86,6 +104,7 @@
 #include "vtkTableAlgorithm.h"
 
 class vtkPolyData;
+class vtkTable;
 
 class VTKLABELMESHFILTERS_EXPORT vtkLabelMeshReport : public vtkTableAlgorithm
 {
@@ -100,6 +119,10 @@ public:
   vtkGetMacro(ErrorMap, vtkTypeBool);
   vtkBooleanMacro(ErrorMap, vtkTypeBool);
   ///@}
+
+  /// Output ports 4 and 5.
+  vtkTable* GetTetrahedraOutput();
+  vtkTable* GetDihedralsOutput();
 
   /// Output port 3.
   vtkPolyData* GetErrorMapOutput();

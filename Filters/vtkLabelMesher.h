@@ -199,6 +199,9 @@ public:
   double GetRadiusEdgeRatio() const;
   void SetMinimumDihedral(double degrees);
   double GetMinimumDihedral() const;
+  /// Passes of improvement over badly shaped tetrahedra (10).
+  void SetTetraImprovePasses(int passes);
+  int GetTetraImprovePasses() const;
   ///@}
 
   ///@{

@@ -144,6 +144,12 @@ std::map<std::string, Action> Actions(CommandLine& line)
         line.TetRefinementRounds =
           static_cast<int>(std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0), 100.0));
       } },
+    { "--tet-improve",
+      [&line](const std::string& option, const std::string& value)
+      {
+        line.TetImprovePasses =
+          static_cast<int>(std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0), 1000.0));
+      } },
     { "--volume-gradation", number(line.VolumeGradation, 0.01) },
     { "--volume-max-length", number(line.VolumeMaximumLength, 0.0) },
     { "--method",
@@ -247,7 +253,8 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
     Fail("there is nothing to write: give -o FILE.vtp, --surfaces FILE.vtpc, --particles FILE.vtp, --tets FILE.vtu or "
          "--report FILE.json");
   }
-  for (const char* option : { "--tet-method", "--tet-refine", "--volume-gradation", "--volume-max-length" })
+  for (const char* option :
+    { "--tet-method", "--tet-refine", "--tet-improve", "--volume-gradation", "--volume-max-length" })
   {
     if (line.Tets.empty() && given.count(option))
     {
@@ -360,6 +367,7 @@ Tetrahedra (with --tets):
   --tet-method packed   spheres packed inside the materials become their inner points (default)
   --tet-method tetgen   TetGen inserts inner points
   --tet-refine N        rounds of inserting points where packed slivers are (default 0)
+  --tet-improve N       passes over badly shaped tetrahedra at most (default 10; 0: none)
   --volume-gradation G  how fast edges grow inside (default 0.4)
   --volume-max-length L bound of the edge length inside (default: none)
 

@@ -27,6 +27,7 @@ struct CommandLine
   bool Grid = false;                                             ///< --method grid
   bool TetsByTetGen = false;                                     ///< --tet-method tetgen
   int TetRefinementRounds = 0;                                   ///< --tet-refine
+  std::optional<int> TetImprovePasses;                           ///< --tet-improve
   std::vector<long long> Labels;
   long long Background = 0;
   std::map<long long, MaterialOptions> Materials;

@@ -13,6 +13,7 @@
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkVariant.h>
 
 #include <sys/resource.h>
@@ -299,6 +300,44 @@ std::string CellsJson(vtkPolyData* particles)
   return json.Object();
 }
 
+/// Figures of tetrahedra, by the name of the column or of the field data that holds them.
+template <typename Get>
+void AddTetrahedra(Json& json, vtkTable* dihedrals, const std::string& angles, const Get& get)
+{
+  const auto count = [&get](const char* name) { return static_cast<long long>(get(name)); };
+  json.Integer("count", count("Tetrahedra")).Integer("turned_over", count("TurnedOver"));
+  json.Integer("slivers", count("Slivers")).Real("min_radius_ratio", get("MinRadiusRatio"));
+  json.Real("p1_radius_ratio", get("FirstPercentileRadiusRatio")).Real("mean_radius_ratio", get("MeanRadiusRatio"));
+  json.Real("min_dihedral_degrees", get("MinDihedral")).Real("max_dihedral_degrees", get("MaxDihedral"));
+  json.Real("volume", get("Volume")).Integer("worst_tetrahedron", count("WorstTetrahedron"));
+  std::vector<std::string> histogram;
+  for (vtkIdType bin = 0; bin < dihedrals->GetNumberOfRows(); ++bin)
+  {
+    histogram.push_back(std::to_string(Count(dihedrals, bin, angles.c_str())));
+  }
+  json.Add("histogram", Array(histogram));
+}
+
+std::string TetrahedraJson(vtkLabelMeshReport* report)
+{
+  vtkTable* table = report->GetTetrahedraOutput();
+  vtkTable* dihedrals = report->GetDihedralsOutput();
+  Json json;
+  AddTetrahedra(json, dihedrals, "Angles",
+    [table](const char* name) { return table->GetFieldData()->GetArray(name)->GetComponent(0, 0); });
+  std::vector<std::string> rows;
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    const long long label = Count(table, row, "Label");
+    Json material;
+    material.Integer("label", label).Text("name", Text(table, row, "Name"));
+    AddTetrahedra(material, dihedrals, "Angles_" + std::to_string(label),
+      [table, row](const char* name) { return Cell(table, row, name); });
+    rows.push_back("\n  " + material.Object());
+  }
+  return json.Add("materials", Array(rows, ",")).Object();
+}
+
 double FieldValue(vtkTable* table, const char* name)
 {
   return table->GetFieldData()->GetArray(name)->GetComponent(0, 0);
@@ -372,6 +411,10 @@ vtkSmartPointer<vtkLabelMeshReport> CheckMesh(const ReportInput& input)
     report->SetInputData(3, input.Tightened);
     report->SetInputData(4, input.Particles);
   }
+  if (input.Tetrahedra)
+  {
+    report->SetInputData(5, input.Tetrahedra);
+  }
   report->SetErrorMap(input.ErrorMap ? 1 : 0);
   report->Update();
   if (!messages.FirstError().empty())
@@ -421,6 +464,10 @@ std::string JsonReport(const ReportInput& input, vtkLabelMeshReport* report)
   if (input.Particles)
   {
     json.Add("cells", CellsJson(input.Particles));
+  }
+  if (input.Tetrahedra)
+  {
+    json.Add("tetrahedra", TetrahedraJson(report));
   }
   json.Add("lost", LostJson(LossesOf(input, report)));
   AddTail(input, json);

@@ -14,6 +14,7 @@ class vtkImageData;
 class vtkLabelMeshReport;
 class vtkPartitionedDataSetCollection;
 class vtkPolyData;
+class vtkUnstructuredGrid;
 
 struct ReportInput
 {
@@ -28,6 +29,7 @@ struct ReportInput
   vtkImageData* Tightened = nullptr; ///< labels rebuilt from the indicators; none with the grid method
   vtkPartitionedDataSetCollection* Surfaces = nullptr; ///< with field data MaskVolumes, TightVolumes
   std::vector<std::pair<std::string, double>> Seconds; ///< of each stage, in order, "total", "Report"
+  vtkUnstructuredGrid* Tetrahedra = nullptr;           ///< none unless asked for
   bool ErrorMap = false;                               ///< measure the distance of every point to the voxels
   int Threads = 1;
 };
@@ -54,6 +56,9 @@ std::vector<std::string> Verdict(const ReportInput& input, vtkLabelMeshReport* r
 ///  background: the same of the background; its volume is negative: the space that the materials take,
 ///  interfaces [{labels, triangles, area, min_radius_ratio, mean_radius_ratio, voxel_faces}],
 ///  cells {"0", "1", "2"}: particles on 0-, 1- and 2-cells (particle method),
+///  tetrahedra (when asked for) {count, turned_over, slivers, min_radius_ratio, p1_radius_ratio, mean_radius_ratio,
+///    min_dihedral_degrees, max_dihedral_degrees, volume, worst_tetrahedron, histogram: of the dihedral angles by 10
+///    degrees, materials: [the same of each, with label and name]},
 ///  lost [{label or labels, stage, what, advice; of a label and of its parts also parts, voxels, position}]: labels
 ///    without a triangle, connected parts of a label without a voxel in the mesh, labels that touch no more,
 ///  seconds {stage: s, total; then Report: this check, not in the total}, peak_memory_bytes, threads, version.

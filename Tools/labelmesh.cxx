@@ -267,6 +267,7 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
   {
     mesher->SetTetrahedra(line.TetsByTetGen ? vtkDelaunayLabelMesh::TetGen : vtkDelaunayLabelMesh::Packed);
     mesher->SetRefinementRounds(line.TetRefinementRounds);
+    mesher->SetTetraImprovePasses(line.TetImprovePasses.value_or(mesher->GetTetraImprovePasses()));
     set(line.VolumeGradation, &vtkLabelMesher::SetVolumeGradation);
     set(line.VolumeMaximumLength, &vtkLabelMesher::SetVolumeMaximumLength);
   }
@@ -410,6 +411,7 @@ void MeshVolume(const CommandLine& line)
     }
     report.Particles = mesher->GetParticles();
     report.Tightened = mesher->GetLabelImage();
+    report.Tetrahedra = line.Tets.empty() ? nullptr : mesher->GetTetrahedraOutput();
   }
   report.Mesh = line.Grid ? grid->GetOutput() : mesher->GetOutput();
   report.Surfaces = line.Grid ? grid->GetSurfaces() : mesher->GetSurfaces();

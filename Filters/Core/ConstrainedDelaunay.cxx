@@ -122,6 +122,19 @@ struct Boundary
   }
 };
 
+/// TetGen crashes where triangles cut each other, or have no area.
+void RequireNoCuts(const Boundary& boundary)
+{
+  const SelfIntersections cuts = FindSelfIntersections(boundary.Points, boundary.Triangles);
+  if (!cuts.Pairs.empty() || cuts.WithoutArea > 0)
+  {
+    throw std::runtime_error("The interface cannot be filled with tetrahedra: " + std::to_string(cuts.Pairs.size()) +
+      " pairs of its triangles cut each other, and " + std::to_string(cuts.WithoutArea) +
+      " have no area. A smaller Epsilon, FeatureSizeFloor or MinimumLength may help; the mesh without tetrahedra is of "
+      "use all the same.");
+  }
+}
+
 void SetPoints(const std::vector<Vec3>& points, tetgenio& io)
 {
   io.numberofpoints = int(points.size());
@@ -261,7 +274,7 @@ void FindMaterials(const Boundary& boundary, MaterialId background, Filling& fil
   {
     throw std::runtime_error("The tetrahedra do not conform to the interface: " + std::to_string(missing) +
       " of its triangles are no faces of theirs, and " + std::to_string(contradictions) +
-      " tetrahedra lie in two materials. Mesh without tetrahedra to see what is wrong with the surfaces.");
+      " tetrahedra lie in two materials. Label Mesh Report tells what is wrong with the mesh without tetrahedra.");
   }
   std::replace(filling.Materials.begin(), filling.Materials.end(), background, NoMaterial);
 }
@@ -385,18 +398,6 @@ void CheckVolumes(const TetraMesh& mesh)
 }
 }
 
-double TetraRadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
-{
-  // r_in = 3 V / S; r_circ = |num| / (12 V), num = |d'|^2 (b' x c') + ... with edges from a.
-  const Vec3 u = b - a, v = c - a, w = d - a;
-  const Vec3 uv = u.cross(v), vw = v.cross(w), wu = w.cross(u);
-  const double six = uv.dot(w);
-  const double areas = 0.5 * (uv.norm() + vw.norm() + wu.norm() + (v - u).cross(w - u).norm());
-  const double product = (w.squaredNorm() * uv + u.squaredNorm() * vw + v.squaredNorm() * wu).norm();
-  const double scale = areas * product;
-  return scale > 0.0 ? 3.0 * six * std::abs(six) / scale : 0.0;
-}
-
 TetraResult FillWithTetrahedra(const InterfaceMesh& surface, MaterialId background,
   const std::vector<InnerPoint>& inside, const TetraOptions& options, const Monitor& monitor)
 {
@@ -407,6 +408,7 @@ TetraResult FillWithTetrahedra(const InterfaceMesh& surface, MaterialId backgrou
     return result;
   }
   monitor.Step(0.0, "Filling with tetrahedra");
+  RequireNoCuts(boundary);
   const TriangleDistance distance(boundary.Points, boundary.Triangles);
   std::vector<char> tooNear(inside.size(), 0);
   ParallelFor(0, Index(inside.size()), 256,

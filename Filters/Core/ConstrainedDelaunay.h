@@ -6,6 +6,7 @@
 #include "InterfaceMesh.h"
 #include "Monitor.h"
 #include "TetraMesh.h"
+#include "TetraQuality.h"
 
 #include <vector>
 
@@ -34,12 +35,6 @@ struct TetraResult
   Index Added = 0;    ///< points that TetGen had to add, or did on request
   Index Inserted = 0; ///< circumcentres of slivers
 };
-
-/// The radius ratio below which a tetrahedron is a sliver, as the paper has it.
-inline constexpr double SliverRatio = 0.1;
-
-/// Radius ratio 3 r_in / r_circ of a tetrahedron: 1 regular, 0 flat; its sign is that of the volume.
-double TetraRadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Constrained tetrahedralisation, by TetGen, of an interface mesh and points inside its materials. Materials other
 /// than `background` are filled; the triangles of the mesh are faces of tetrahedra just as they are, each between the

@@ -61,7 +61,7 @@ struct Shape
   double RadiusRatio() const
   {
     const double below = this->AreaSum() * std::sqrt(Crelle(this->OppositeProducts()));
-    return below > 0.0 ? 12.0 * this->Volume6 * this->Volume6 / below : 0.0;
+    return below > 0.0 ? 12.0 * this->Volume6 * std::abs(this->Volume6) / below : 0.0;
   }
 };
 }
@@ -71,7 +71,7 @@ double SignedVolume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   return (b - a).cross(c - a).dot(d - a) / 6.0;
 }
 
-double RadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+double TetraRadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
   return Shape(a, b, c, d).RadiusRatio();
 }

@@ -10,8 +10,11 @@ namespace LabelMesh
 /// ((b - a) x (c - a)) . (d - a) / 6: positive where a, b, c turn to the left seen from d.
 double SignedVolume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// 3 r_in / r_circ: 1 for a regular tetrahedron, 0 for a flat one. The sign of the volume makes no difference.
-double RadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// 3 r_in / r_circ: 1 for a regular tetrahedron, 0 for a flat one; its sign is that of the volume.
+double TetraRadiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// The radius ratio below which a tetrahedron is a sliver, as the paper has it.
+inline constexpr double SliverRatio = 0.1;
 
 /// The pairs of corners that are edges, in the order of DihedralAngles().
 inline constexpr std::array<std::array<int, 2>, 6> TetraEdges = { { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 },

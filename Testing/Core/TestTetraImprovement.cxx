@@ -43,7 +43,7 @@ double MeanRatio(const TetraMesh& mesh)
   double sum = 0.0;
   for (const auto& c : mesh.Corners)
   {
-    sum += RadiusRatio(mesh.Points[c[0]], mesh.Points[c[1]], mesh.Points[c[2]], mesh.Points[c[3]]);
+    sum += TetraRadiusRatio(mesh.Points[c[0]], mesh.Points[c[1]], mesh.Points[c[2]], mesh.Points[c[3]]);
   }
   return sum / double(mesh.Corners.size());
 }

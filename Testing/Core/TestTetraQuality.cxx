@@ -13,7 +13,7 @@ namespace
 {
 using Corners = std::array<Vec3, 4>;
 
-const Corners Regular = { Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1) };
+const Corners Regular = { Vec3(1, -1, -1), Vec3(1, 1, 1), Vec3(-1, 1, -1), Vec3(-1, -1, 1) };
 const Corners CubeCorner = { Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1) };
 
 double Quality(const Corners& x)
@@ -51,15 +51,15 @@ std::vector<Corners> ByChance(int count)
 TEST(TetraQuality, OfKnownTetrahedra)
 {
   const auto& [a, b, c, d] = Regular;
-  EXPECT_NEAR(std::abs(SignedVolume(a, b, c, d)), 8.0 / 3.0, 1e-14);
-  EXPECT_NEAR(RadiusRatio(a, b, c, d), 1.0, 1e-14);
+  EXPECT_NEAR(SignedVolume(a, b, c, d), 8.0 / 3.0, 1e-14);
+  EXPECT_NEAR(TetraRadiusRatio(a, b, c, d), 1.0, 1e-14);
   for (const double angle : DihedralAngles(a, b, c, d))
   {
     EXPECT_NEAR(angle, std::acos(1.0 / 3.0) * 180.0 / M_PI, 1e-12);
   }
   const auto& [o, x, y, z] = CubeCorner;
   EXPECT_NEAR(SignedVolume(o, x, y, z), 1.0 / 6.0, 1e-15);
-  EXPECT_NEAR(RadiusRatio(o, x, y, z), std::sqrt(3.0) - 1.0, 1e-14);
+  EXPECT_NEAR(TetraRadiusRatio(o, x, y, z), std::sqrt(3.0) - 1.0, 1e-14);
   const auto angles = DihedralAngles(o, x, y, z);
   for (int edge = 0; edge < 6; ++edge)
   {
@@ -73,7 +73,8 @@ TEST(TetraQuality, SeesFlatAndTurnedOver)
   const auto& [o, x, y, z] = CubeCorner;
   EXPECT_LT(TetraQuality(x, o, y, z), 0.0);
   EXPECT_EQ(TetraQuality(o, x, y, Vec3(1, 1, 0)), 0.0);
-  EXPECT_EQ(RadiusRatio(o, x, y, Vec3(1, 1, 0)), 0.0);
+  EXPECT_EQ(TetraRadiusRatio(o, x, y, Vec3(1, 1, 0)), 0.0);
+  EXPECT_EQ(TetraRadiusRatio(x, o, y, z), -TetraRadiusRatio(o, x, y, z));
   EXPECT_EQ(TetraQuality(o, x, 2 * x, z), -1.0) << "a face without area";
   EXPECT_EQ(TetraQuality(o, o, o, o), -1.0);
 }
@@ -105,7 +106,7 @@ TEST(TetraQuality, BoundsAnglesAndRadiusRatio)
       const auto angles = DihedralAngles(x[0], x[1], x[2], x[3]);
       EXPECT_GE(*std::min_element(angles.begin(), angles.end()), 12.0);
       EXPECT_LE(*std::max_element(angles.begin(), angles.end()), 155.5);
-      EXPECT_GE(RadiusRatio(x[0], x[1], x[2], x[3]), 0.25);
+      EXPECT_GE(TetraRadiusRatio(x[0], x[1], x[2], x[3]), 0.25);
     }
   }
   EXPECT_GT(good, 100);
