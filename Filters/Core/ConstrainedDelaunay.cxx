@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstrainedDelaunay.h"
 
+#include "NeighborGrid.h"
 #include "Parallel.h"
 #include "TetGenRun.h"
 #include "TetraLabeling.h"
@@ -318,6 +319,7 @@ std::vector<InnerPoint> SliverCentres(
   const Filling& filling, const TriangleDistance& boundary, const TetraOptions& options)
 {
   std::vector<InnerPoint> centres;
+  NeighborGrid found;
   for (Index t = 0; t < Index(filling.Corners.size()); ++t)
   {
     if (filling.Materials[t] == NoMaterial)
@@ -336,13 +338,12 @@ std::vector<InnerPoint> SliverCentres(
     InnerPoint centre;
     centre.Position = Circumcentre(x[0], x[1], x[2], x[3]);
     centre.TargetLength = (centre.Position - x[0]).norm();
-    const auto isNear = [&](const InnerPoint& other)
-    { return (other.Position - centre.Position).norm() < options.LeastDistance * centre.TargetLength; };
     if (InSameMaterial(filling, t, centre.Position) &&
       !boundary.IsNearer(centre.Position, options.LeastDistance * centre.TargetLength) &&
-      std::none_of(centres.begin(), centres.end(), isNear))
+      !found.AnyScaled(centre.Position, centre.TargetLength, options.LeastDistance, [](Index, double) { return true; }))
     {
       centres.push_back(centre);
+      found.Insert(centre.Position, centre.TargetLength);
     }
   }
   return centres;

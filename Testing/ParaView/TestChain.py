@@ -5,11 +5,21 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from common import blocks, content, open_volume, output  # noqa: E402
+from common import arrays, blocks, content, open_volume, output  # noqa: E402
+
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 
 from paraview.simple import Calculator, LoadPlugin, OutputPort, XMLPolyDataReader  # noqa: E402
 
 LoadPlugin(os.environ["LABELMESH_PLUGIN"], remote=False, ns=globals())
+
+
+
+def grid_content(grid):
+    """All that makes a grid of tetrahedra: its bytes."""
+    return (vtk_to_numpy(grid.GetPoints().GetData()).tobytes(), arrays(grid.GetCellData()),
+            vtk_to_numpy(grid.GetCells().GetConnectivityArray()).tobytes())
+
 
 volume = open_volume("two_spheres_small")
 # Said, not left to the default: with an input given by keyword, pvpython takes the default from the active source.
@@ -43,6 +53,15 @@ assert interfaces.GetCellData().GetArray("BoundaryLabels") is not None
 for port, (stage, stage_port) in enumerate([(mesh, 0), (mesh, 1), (particles, 0), (particles, 1)]):
     assert content(output(whole, port)) == content(output(stage, stage_port)), f"port {port} of Label Mesher differs"
 assert [name for name, _ in blocks(output(mesh, 1))] == ["upper", "lower"]
+
+particles.SampleVolume = 1
+mesh.Tetrahedra = "Packed"
+whole.Tetrahedra = "Packed"
+tetrahedra = output(mesh, 2)
+assert tetrahedra.GetNumberOfCells() > 1000, tetrahedra.GetNumberOfCells()
+assert grid_content(output(whole, 4)) == grid_content(tetrahedra), "port 4 of Label Mesher differs"
+assert content(output(mesh)) == content(interfaces), "tetrahedra changed the surface"
+whole.Tetrahedra = "Off"
 
 # The chain is live: other sizing, other mesh; the same again, the same mesh.
 before = content(interfaces)

@@ -19,7 +19,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import (vtkXMLImageDataWriter, vtkXMLPartitionedDataSetCollectionReader,
-                                 vtkXMLPolyDataReader)
+                                 vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader)
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "Data"))
 import make_volumes  # noqa: E402
@@ -30,6 +30,13 @@ SPHERES = make_volumes.two_spheres(32)
 
 def read_mesh(path):
     reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def read_grid(path):
+    reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(path))
     reader.Update()
     return reader.GetOutput()
@@ -145,6 +152,25 @@ class TestOutput(CommandLineTest):
         for threads in (1, 2):
             self.mesh(self.spheres, "-o", f"{threads}.vtp", "--threads", threads, "--quiet")
         self.assertEqual((self.folder / "1.vtp").read_bytes(), (self.folder / "2.vtp").read_bytes())
+
+    def test_tetrahedra(self):
+        self.mesh(self.spheres, "-o", "m.vtp", "--tets", "t.vtu", "--report", "r.json", "--quiet", "--tet-refine", "1",
+                  "--volume-gradation", "0.3", "--volume-max-length", "6", "--threads", "1")
+        grid = read_grid(self.folder / "t.vtu")
+        cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+        points = vtk_to_numpy(grid.GetPoints().GetData())
+        labels = vtk_to_numpy(grid.GetCellData().GetArray("Label"))
+        surface = points_of(self.folder / "m.vtp")
+        np.testing.assert_array_equal(points[:len(surface)], surface)
+        a, b, c, d = (points[cells[:, n]] for n in range(4))
+        volumes = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+        self.assertGreater(volumes.min(), 0)
+        report = json.loads((self.folder / "r.json").read_text())
+        for material in report["materials"]:
+            np.testing.assert_allclose(volumes[labels == material["label"]].sum(), material["volume"], rtol=1e-9)
+        self.assertGreater(report["cells"]["3"], 100)
+        self.mesh(self.spheres, "--tets", "g.vtu", "--tet-method", "tetgen", "--quiet")
+        self.assertGreater(read_grid(self.folder / "g.vtu").GetNumberOfCells(), 1000)
 
     def test_grid_method(self):
         self.mesh(self.spheres, "-o", "grid.vtp", "--method", "grid", "--triangles", 800, "--report", "grid.json")
