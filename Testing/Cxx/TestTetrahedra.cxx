@@ -315,6 +315,15 @@ TEST(Tetrahedra, AreReported)
   EXPECT_EQ(total("Slivers"), double(tets.Slivers()));
   EXPECT_NEAR(total("MeanRadiusRatio"), tets.MeanRatio(), 1e-9);
   EXPECT_NEAR(total("MinRadiusRatio"), *std::min_element(tets.Ratios.begin(), tets.Ratios.end()), 1e-9);
+  vtkNew<vtkUnstructuredGrid> bare;
+  bare->ShallowCopy(mesher->GetTetrahedraOutput());
+  bare->GetCellData()->Initialize();
+  const Listener listener(report);
+  report->SetInputData(5, bare);
+  report->Update();
+  EXPECT_NE(listener.Errors.find("no cell array 'Label'"), std::string::npos) << listener.Errors;
+  report->SetInputData(5, mesher->GetTetrahedraOutput());
+  report->Update();
   // The volumes are those that the report finds for the surfaces.
   vtkTable* surfaces = report->GetOutput();
   ASSERT_EQ(table->GetNumberOfRows() + 1, surfaces->GetNumberOfRows());
@@ -415,6 +424,9 @@ TEST(Tetrahedra, PropertiesReachTheStages)
   mesher->SetRadiusEdgeRatio(1.6);
   EXPECT_EQ(mesher->GetMinimumDihedral(), 10.0);
   EXPECT_EQ(mesher->GetRadiusEdgeRatio(), 1.6);
+  EXPECT_EQ(mesher->GetTetraImprovePasses(), 10);
+  mesher->SetTetraImprovePasses(3);
+  EXPECT_EQ(mesher->GetTetraImprovePasses(), 3);
   mesher->SetVolumeMaximumLength(5.0);
   mesher->SetMaterialVolumeMaximumLength(2, 3.0);
   EXPECT_EQ(mesher->GetVolumeMaximumLength(), 5.0);
