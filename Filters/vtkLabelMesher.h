@@ -99,7 +99,7 @@ public:
   ///@}
 
   ///@{
-  /// vtkTighten: VolumeKeeping or Tightening (VolumeKeeping); fidelity (0.85, 1 / voxel) and rounds (8) of the first.
+  /// vtkTighten: VolumeKeeping or Tightening (VolumeKeeping); fidelity (0.6, 1 / voxel) and rounds (8) of the first.
   void SetSmoothing(int smoothing);
   int GetSmoothing() const;
   void SetSmoothingToVolumeKeeping();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartitionVolumes.h"
 
+#include "CubicPoints.h"
 #include "Parallel.h"
 
 #include <limits>
@@ -9,7 +10,8 @@ namespace LabelMesh
 {
 namespace
 {
-constexpr int Parts = 4;          // of a cell's edge
+using Cubic = CubicPoints<4>; // of a cell
+
 constexpr Index LayersAtOnce = 8; // of cells: one task reads one slice of samples more
 
 /// A block's field at the samples of the working lattice.
@@ -42,6 +44,22 @@ public:
   float Value(Index i, Index j, Index k) const
   {
     return this->Covers(i, j, k) ? this->Inner(i, j, k) : float(this->Block.Outside);
+  }
+  /// The 4^3 samples from this one on.
+  void Stencil(Index i, Index j, Index k, Cubic::Samples& samples) const
+  {
+    const bool inside = this->Shared && this->Covers(i, j, k) && this->Covers(i + 3, j + 3, k + 3);
+    float* to = samples.data();
+    for (Index z = k; z < k + 4; ++z)
+    {
+      for (Index y = j; y < j + 4; ++y, to += 4)
+      {
+        for (Index x = 0; x < 4; ++x)
+        {
+          to[x] = inside ? this->Sample(i, y, z)[x] : this->Value(i + x, y, z);
+        }
+      }
+    }
   }
   /// Takes part in slice k, whose largest values and their materials are these; as the first it takes its place in any
   /// case.
@@ -130,50 +148,24 @@ struct Share
   Index Parts;
 };
 
-/// The trilinear interpolant of a cell's corners (x fastest) in the middle of each part.
-void Interpolate(const std::array<float, 8>& f, std::array<float, Parts * Parts * Parts>& values)
-{
-  const auto middle = [](int part) { return (float(part) + 0.5f) / Parts; };
-  for (int k = 0; k < Parts; ++k)
-  {
-    for (int j = 0; j < Parts; ++j)
-    {
-      const float v = middle(j), w = middle(k);
-      const auto alongYZ = [&](int x)
-      {
-        const float low = f[x] + v * (f[x + 2] - f[x]), high = f[x + 4] + v * (f[x + 6] - f[x + 4]);
-        return low + w * (high - low);
-      };
-      const float left = alongYZ(0), right = alongYZ(1);
-      for (int i = 0; i < Parts; ++i)
-      {
-        values[i + Parts * (j + Parts * k)] = left + middle(i) * (right - left);
-      }
-    }
-  }
-}
-
 void CutCell(const std::vector<WorkingField>& fields, const std::array<int, 8>& materials, Index i, Index j, Index k,
   std::vector<Share>& shares)
 {
-  constexpr int count = Parts * Parts * Parts;
+  static const Cubic cubic;
   std::array<int, 8> distinct = materials;
   std::sort(distinct.begin(), distinct.end());
   const auto end = std::unique(distinct.begin(), distinct.end());
-  std::array<float, count> largest, values;
-  std::array<std::int32_t, count> winners;
+  Cubic::Points largest, values;
+  std::array<std::int32_t, Cubic::Count> winners;
   largest.fill(std::numeric_limits<float>::lowest());
   winners.fill(distinct[0]);
   for (auto material = distinct.begin(); material != end; ++material)
   {
-    std::array<float, 8> corners;
-    for (int c = 0; c < 8; ++c)
-    {
-      corners[c] = fields[*material].Value(i + (c & 1), j + ((c >> 1) & 1), k + (c >> 2));
-    }
-    Interpolate(corners, values);
+    Cubic::Samples samples;
+    fields[*material].Stencil(i - 1, j - 1, k - 1, samples);
+    cubic.Interpolate(samples, values);
 #pragma omp simd
-    for (int part = 0; part < count; ++part)
+    for (int part = 0; part < Cubic::Count; ++part)
     {
       winners[part] = values[part] > largest[part] ? *material : winners[part];
       largest[part] = values[part] > largest[part] ? values[part] : largest[part];
@@ -204,7 +196,7 @@ void CountLayer(const std::vector<WorkingField>& fields, const Lattice& frame, c
       }
       if (!differ)
       {
-        parts[first] += Parts * Parts * Parts;
+        parts[first] += Cubic::Count;
         continue;
       }
       std::array<int, 8> materials;
@@ -275,7 +267,7 @@ std::vector<double> PartitionVolumes(const std::vector<IndicatorBlock>& blocks, 
   std::vector<double> volumes(blocks.size(), 0.0);
   for (const Share& share : shares)
   {
-    volumes[share.Material] += double(share.Parts) / (Parts * Parts * Parts) * working.VoxelVolume();
+    volumes[share.Material] += double(share.Parts) / Cubic::Count * working.VoxelVolume();
   }
   return volumes;
 }
