@@ -15,7 +15,8 @@
  *
  * Output port 0 (vtkPolyData): the interface triangles, each once; see vtkDelaunayLabelMesh for its arrays.
  * Output port 1 (vtkPartitionedDataSetCollection): a closed surface per material; see vtkDelaunayLabelMesh. Field data
- * MaskVolumes, TightVolumes, KeptVolumes (float64, in the order of Labels) as vtkTighten's, for vtkLabelMeshReport.
+ * MaskVolumes, TightVolumes, KeptVolumes (float64, in the order of Labels) as vtkTighten's, and DroppedLabels and so on
+ * as vtkLabelSplit's, for vtkLabelMeshReport.
  * Output port 2 (vtkPolyData): the particles, before repair; see vtkParticleSampleCells.
  * Output port 3 (vtkPolyData): the curves where three materials meet; see vtkParticleSampleCells.
  *
@@ -76,6 +77,12 @@ public:
   int GetBorder() const;
   void SetBorderToClosed();
   void SetBorderToFlat();
+  ///@}
+
+  ///@{
+  /// vtkLabelSplit: components of labels with fewer voxels go to the label around them (0: none do).
+  void SetMinimumComponentSize(vtkIdType voxels);
+  vtkIdType GetMinimumComponentSize() const;
   ///@}
 
   ///@{
