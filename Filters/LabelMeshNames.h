@@ -31,7 +31,12 @@ inline constexpr char MaskVolumes[] = "MaskVolumes";         ///< float64 x N, w
 inline constexpr char TightVolumes[] = "TightVolumes";       ///< float64 x N, world length cubed
 inline constexpr char KeptVolumes[] = "KeptVolumes";         ///< float64 x N, TightVolumes / MaskVolumes
 inline constexpr char KeptFromCutting[] = "KeptFromCutting"; ///< int64, see vtkDelaunayLabelMesh.h
-inline constexpr char IndicatorsRoot[] = "Indicators";       ///< root of a collection's assembly
+// Components of labels that were too small (MinimumComponentSize), as they were in the label image.
+inline constexpr char DroppedLabels[] = "DroppedLabels";       ///< int64 x M
+inline constexpr char DroppedInto[] = "DroppedInto";           ///< int64 x M: the labels that got their voxels
+inline constexpr char DroppedVoxels[] = "DroppedVoxels";       ///< int64 x M
+inline constexpr char DroppedPositions[] = "DroppedPositions"; ///< float64 x 3 x M, world: the first voxel of each
+inline constexpr char IndicatorsRoot[] = "Indicators";         ///< root of a collection's assembly
 inline constexpr char SurfacesRoot[] = "Surfaces";
 inline constexpr char CatmullRom[] = "CatmullRom";
 

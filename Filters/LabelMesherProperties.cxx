@@ -102,6 +102,16 @@ double vtkLabelMesher::GetResamplingFactor() const
   return this->Stages->Split->GetResamplingFactor();
 }
 
+void vtkLabelMesher::SetMinimumComponentSize(vtkIdType voxels)
+{
+  this->Stages->Split->SetMinimumComponentSize(voxels);
+}
+
+vtkIdType vtkLabelMesher::GetMinimumComponentSize() const
+{
+  return this->Stages->Split->GetMinimumComponentSize();
+}
+
 void vtkLabelMesher::SetMemoryLimit(double gibibytes)
 {
   this->Stages->Split->SetMemoryLimit(gibibytes);

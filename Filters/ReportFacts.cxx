@@ -51,6 +51,13 @@ LabelImage ReadVolume(const ReportInputs& inputs, const InterfaceData& mesh)
     std::vector<Label> kept;
     std::transform(mesh.Materials.begin(), mesh.Materials.end(), std::back_inserter(kept),
       [](const Material& m) { return m.Label; });
+    vtkFieldData* stages = inputs.Stages ? inputs.Stages->GetFieldData() : nullptr;
+    vtkDataArray* dropped = stages ? stages->GetArray(Names::DroppedLabels) : nullptr;
+    for (vtkIdType n = 0; dropped && n < dropped->GetNumberOfValues(); ++n)
+    {
+      kept.push_back(dropped->GetVariantValue(n).ToTypeInt64());
+    }
+    std::sort(kept.begin(), kept.end());
     MergeIntoBackground(volume, kept, mesh.Background);
   }
   return volume;
@@ -118,6 +125,80 @@ std::vector<double> FieldVolumes(vtkDataObject* object, const char* name, const 
   return volumes;
 }
 
+/// A world position as a continuous index that begins with 0.
+Vec3 IndexOf(const GridFrame& frame, const Vec3& world)
+{
+  const std::array<int, 6>& extent = frame.Extent();
+  return frame.ToIndex(world) - Vec3(extent[0], extent[2], extent[4]);
+}
+
+/// The components that Label Split was asked to drop, from the field data of a collection. Their labels must be among
+/// the materials.
+std::vector<Loss> ReadDropped(vtkDataObject* object, const GridFrame& frame, const std::vector<Material>& materials)
+{
+  vtkFieldData* fieldData = object ? object->GetFieldData() : nullptr;
+  std::array<vtkDataArray*, 4> arrays{};
+  const char* const names[] = { Names::DroppedLabels, Names::DroppedInto, Names::DroppedVoxels,
+    Names::DroppedPositions };
+  for (int n = 0; n < 4; ++n)
+  {
+    arrays[n] = fieldData ? fieldData->GetArray(names[n]) : nullptr;
+    if (!arrays[n] || arrays[n]->GetNumberOfTuples() != arrays[0]->GetNumberOfTuples() ||
+      arrays[n]->GetNumberOfComponents() != (n == 3 ? 3 : 1))
+    {
+      return {};
+    }
+  }
+  const Lattice samples = frame.Samples();
+  std::vector<Loss> dropped;
+  for (vtkIdType n = 0; n < arrays[0]->GetNumberOfTuples(); ++n)
+  {
+    Loss loss;
+    loss.Kind = Loss::Dropped;
+    loss.Stage = LossStage::Split;
+    for (int side = 0; side < 2; ++side)
+    {
+      loss.Materials[side] = IdOf(materials, arrays[side]->GetVariantValue(n).ToTypeInt64());
+    }
+    loss.Parts = 1;
+    loss.Voxels = loss.Largest = arrays[2]->GetVariantValue(n).ToTypeInt64();
+    Vec3 world;
+    arrays[3]->GetTuple(n, world.data());
+    const Vec3 at = IndexOf(frame, world).array().round();
+    const auto inside = [&](int a) { return at[a] >= 0 && at[a] < samples.Dims[a]; };
+    if (loss.Materials[0] != NoMaterial && loss.Materials[1] != NoMaterial && inside(0) && inside(1) && inside(2))
+    {
+      loss.Sample = samples.At(Index(at[0]), Index(at[1]), Index(at[2]));
+      dropped.push_back(loss);
+    }
+  }
+  return dropped;
+}
+
+/// Gives the voxels of dropped components to the labels that the mesh has there.
+void ApplyDropped(const std::vector<Loss>& dropped, const std::array<int, 3>& dims, MaterialId background,
+  std::size_t materials, std::vector<MaterialId>& ids)
+{
+  if (dropped.empty())
+  {
+    return;
+  }
+  std::map<Index, MaterialId> given; // by the first voxel
+  for (const Loss& loss : dropped)
+  {
+    given[loss.Sample] = loss.Materials[1];
+  }
+  const VoxelObjects objects = FindVoxelParts(dims, ids, background, int(materials));
+  for (const VoxelRun& run : objects.Runs)
+  {
+    const auto found = given.find(objects.Parts[run.Part].First);
+    if (found != given.end())
+    {
+      std::fill(ids.begin() + run.First, ids.begin() + run.Last, found->second);
+    }
+  }
+}
+
 /// What an image of labels, on any grid of the same space, says at the voxels of another.
 std::vector<MaterialId> Resampled(
   vtkImageData* image, const GridFrame& frame, const std::vector<Material>& materials, MaterialId background)
@@ -155,13 +236,6 @@ std::vector<MaterialId> Resampled(
       }
     });
   return result;
-}
-
-/// A world position as a continuous index that begins with 0.
-Vec3 IndexOf(const GridFrame& frame, const Vec3& world)
-{
-  const std::array<int, 6>& extent = frame.Extent();
-  return frame.ToIndex(world) - Vec3(extent[0], extent[2], extent[4]);
 }
 
 std::vector<Vec3> IndicesOf(const GridFrame& frame, const std::vector<Vec3>& points)
@@ -229,6 +303,8 @@ void FindVolumeFacts(const ReportInputs& inputs, const LabelImage& image, Report
   std::transform(
     image.Ids.begin(), image.Ids.end(), std::back_inserter(volume.Ids), [&ids](MaterialId id) { return ids[id]; });
   const std::array<int, 3> dims = image.Frame.Samples().Dims;
+  const std::vector<Loss> dropped = ReadDropped(inputs.Stages, volume.Frame, materials);
+  ApplyDropped(dropped, dims, facts.Background, materials.size(), volume.Ids);
   volume.Voxels = FindVoxelObjects(dims, volume.Ids, facts.Background, int(materials.size()));
   monitor.Step(0.3);
   const std::vector<MaterialId> meshIds =
@@ -254,10 +330,11 @@ void FindVolumeFacts(const ReportInputs& inputs, const LabelImage& image, Report
     ledger.Particles = ReadParticles(inputs.Particles, volume.Frame, materials);
   }
   volume.Losses = FindLosses(ledger);
+  volume.Losses.insert(volume.Losses.begin(), dropped.begin(), dropped.end());
   volume.LostParts.assign(materials.size(), 0);
   for (const Loss& loss : volume.Losses)
   {
-    if (loss.Kind != Loss::TouchingPair)
+    if (loss.Kind != Loss::TouchingPair && loss.Kind != Loss::Dropped)
     {
       volume.LostParts[loss.Materials[0]] += loss.Parts;
     }

@@ -240,6 +240,11 @@ std::string WhatWasLost(const Loss& loss, const ReportFacts& facts)
   const std::string place = InWords(PositionOfSample(facts.Volume.Frame, loss.Sample));
   const std::string where =
     loss.Parts == 1 ? "at " + place : "the largest part has " + std::to_string(loss.Largest) + ", at " + place;
+  if (loss.Kind == Loss::Dropped)
+  {
+    return "a component of label " + label + " with " + Counted(loss.Voxels, "voxel", "voxels") + ", at " + place +
+      ", was dropped on request and given to label " + LabelOf(facts, loss.Materials[1]);
+  }
   if (loss.Kind == Loss::WholeLabel)
   {
     return "no triangle has label " + label + "; it has " + Counted(loss.Voxels, "voxel", "voxels") + " in " +
@@ -254,6 +259,10 @@ std::string WhatWasLost(const Loss& loss, const ReportFacts& facts)
 std::string AdviceOn(const Loss& loss, const ReportFacts& facts)
 {
   const std::string label = LabelOf(facts, loss.Materials[0]);
+  if (loss.Kind == Loss::Dropped)
+  {
+    return "drop only what is smaller (MinimumComponentSize of Label Split, or --min-component)";
+  }
   const std::string finer = "mesh a volume of finer voxels (each repeated three times along every axis, or "
                             "ResamplingFactor of Label Split)";
   const std::string smoother = "smooth less (Radius of Tighten, --radius, or --material " + label + ":radius=R)";
@@ -377,14 +386,17 @@ void FillInterfaces(vtkTable* table, const ReportFacts& facts)
 
 void FillLosses(vtkTable* table, const ReportFacts& facts)
 {
-  static const char* const kinds[] = { "label", "parts", "pair" };
+  static const char* const kinds[] = { "label", "parts", "dropped", "pair" };
   const std::vector<Loss>& rows = facts.Volume.Losses;
   const auto pairOf = [&](const Loss& loss)
   {
-    const bool pair = loss.Kind == Loss::TouchingPair;
+    const bool pair = loss.Kind == Loss::TouchingPair || loss.Kind == Loss::Dropped;
     std::array<Label, 2> labels{ facts.Mesh.Materials[loss.Materials[0]].Label,
       facts.Mesh.Materials[loss.Materials[pair ? 1 : 0]].Label };
-    OrderPair(labels, facts.Mesh.Background);
+    if (loss.Kind == Loss::TouchingPair)
+    {
+      OrderPair(labels, facts.Mesh.Background);
+    }
     return labels;
   };
   AddColumn<vtkStringArray>(table, "Kind", rows, [](const Loss& loss) { return kinds[loss.Kind]; });

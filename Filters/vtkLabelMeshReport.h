@@ -60,7 +60,8 @@
  *  - "Lost" (uint8): voxels of the two labels touch but no triangle lies between them
  *
  * Output port 2 (vtkTable), a row per loss (needs input 1): labels, then parts (a row per label and stage), then pairs:
- *  - "Kind" (string: label, parts or pair), "LabelA", "LabelB" (int64; the same twice but for a pair)
+ *  - "Kind" (string: label, parts, dropped or pair), "LabelA", "LabelB" (int64; a pair, or what was dropped on
+ *    request and the label that got it; else the same twice)
  *  - "Stage" (string): the first filter after which it is gone; empty when no stage was given
  *  - "Parts", "Voxels" (int64): how many; of a pair the faces of voxels
  *  - "Position" (double x 3): the first voxel of the largest lost part; NaN for a pair

@@ -151,7 +151,8 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
       vtkDataObject::GetData(outputVector, 3)->ShallowCopy(stages.Sample->GetOutputDataObject(1));
       vtkDataObject::GetData(outputVector, 4)->ShallowCopy(stages.Mesh->GetOutputDataObject(2));
       vtkFieldData* volumes = stages.Reconstruct->GetOutputDataObject(0)->GetFieldData();
-      for (const char* name : { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes })
+      for (const char* name : { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes, Names::DroppedLabels,
+             Names::DroppedInto, Names::DroppedVoxels, Names::DroppedPositions })
       {
         if (vtkAbstractArray* array = volumes->GetAbstractArray(name))
         {

@@ -15,7 +15,8 @@
  *
  * Output port 0 (vtkPolyData): the interface triangles, each once; see vtkDelaunayLabelMesh for its arrays.
  * Output port 1 (vtkPartitionedDataSetCollection): a closed surface per material; see vtkDelaunayLabelMesh. Field data
- * MaskVolumes, TightVolumes, KeptVolumes (float64, in the order of Labels) as vtkTighten's, for vtkLabelMeshReport.
+ * MaskVolumes, TightVolumes, KeptVolumes (float64, in the order of Labels) as vtkTighten's, and DroppedLabels and so on
+ * as vtkLabelSplit's, for vtkLabelMeshReport.
  * Output port 2 (vtkPolyData): the particles, before repair; see vtkParticleSampleCells.
  * Output port 3 (vtkPolyData): the curves where three materials meet; see vtkParticleSampleCells.
  * Output port 4 (vtkUnstructuredGrid): with Tetrahedra the tetrahedra that fill the materials; see
@@ -82,6 +83,12 @@ public:
   ///@}
 
   ///@{
+  /// vtkLabelSplit: components of labels with fewer voxels go to the label around them (0: none do).
+  void SetMinimumComponentSize(vtkIdType voxels);
+  vtkIdType GetMinimumComponentSize() const;
+  ///@}
+
+  ///@{
   /// vtkLabelSplit: GiB that the work may take by estimate (0: no limit); larger volumes are an error at once.
   void SetMemoryLimit(double gibibytes);
   double GetMemoryLimit() const;
@@ -102,7 +109,7 @@ public:
   ///@}
 
   ///@{
-  /// vtkTighten: VolumeKeeping or Tightening (VolumeKeeping); fidelity (0.85, 1 / voxel) and rounds (8) of the first.
+  /// vtkTighten: VolumeKeeping or Tightening (VolumeKeeping); fidelity (0.6, 1 / voxel) and rounds (8) of the first.
   void SetSmoothing(int smoothing);
   int GetSmoothing() const;
   void SetSmoothingToVolumeKeeping();

@@ -2,6 +2,7 @@
 #include "vtkLabelSplit.h"
 
 #include "Core/MaterialMasks.h"
+#include "Core/SmallComponents.h"
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelImage.h"
@@ -14,6 +15,8 @@
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -22,6 +25,7 @@
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -184,6 +188,49 @@ LabelImage LabelsToSplit(vtkLabelSplit* filter, vtkImageData* input, vtkDataArra
     asked.empty() ? std::vector<Label>(image.Labels) : std::vector<Label>(wanted.begin(), wanted.end());
   MergeIntoBackground(image, kept, filter->GetBackgroundLabel());
   return image;
+}
+
+MaterialId IdOf(const LabelImage& image, Label label)
+{
+  return MaterialId(std::lower_bound(image.Labels.begin(), image.Labels.end(), label) - image.Labels.begin());
+}
+
+/// Gives small components away and names them in the field data. Labels that are gone are none of the image's any more.
+void DropSmall(LabelImage& image, Label background, Index least, vtkFieldData* fieldData)
+{
+  const Lattice samples = image.Frame.Samples();
+  const std::vector<DroppedComponent> dropped =
+    DropSmallComponents(samples.Dims, image.Ids, IdOf(image, background), int(image.Labels.size()), least);
+  vtkNew<vtkTypeInt64Array> labels, into, voxels;
+  vtkNew<vtkDoubleArray> positions;
+  labels->SetName(Names::DroppedLabels);
+  into->SetName(Names::DroppedInto);
+  voxels->SetName(Names::DroppedVoxels);
+  positions->SetName(Names::DroppedPositions);
+  positions->SetNumberOfComponents(3);
+  const std::array<int, 6>& extent = image.Frame.Extent();
+  for (const DroppedComponent& component : dropped)
+  {
+    labels->InsertNextValue(image.Labels[component.From]);
+    into->InsertNextValue(image.Labels[component.To]);
+    voxels->InsertNextValue(component.Voxels);
+    const std::array<int, 3> at = samples.Coordinates(component.First);
+    positions->InsertNextTuple(image.Frame.ToWorld(extent[0] + at[0], extent[2] + at[1], extent[4] + at[2]).data());
+  }
+  for (vtkDataArray* array : { static_cast<vtkDataArray*>(labels.Get()), static_cast<vtkDataArray*>(into.Get()),
+         static_cast<vtkDataArray*>(voxels.Get()), static_cast<vtkDataArray*>(positions.Get()) })
+  {
+    fieldData->AddArray(array);
+  }
+  std::vector<bool> occurs(image.Labels.size(), false);
+  for (const MaterialId id : image.Ids)
+  {
+    occurs[id] = true;
+  }
+  std::vector<Label> left;
+  std::copy_if(image.Labels.begin(), image.Labels.end(), std::back_inserter(left),
+    [&](Label label) { return occurs[IdOf(image, label)]; });
+  MergeIntoBackground(image, left, background);
 }
 
 void Resample(LabelImage& image, double factor)
@@ -480,6 +527,10 @@ int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVect
         RequireMemory(
           EstimateMemory(image, this->BackgroundLabel, this->Padding, this->ResamplingFactor), this->MemoryLimit);
       }
+      if (this->MinimumComponentSize > 0)
+      {
+        DropSmall(image, this->BackgroundLabel, this->MinimumComponentSize, output->GetFieldData());
+      }
       monitor.Step(0.1, "Resampling");
       Resample(image, this->ResamplingFactor);
       header.Source = image.Frame;
@@ -516,6 +567,7 @@ void vtkLabelSplit::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Padding: " << this->Padding << "\n";
   os << indent << "Border: " << (this->Border == Flat ? "Flat" : "Closed") << "\n";
   os << indent << "ResamplingFactor: " << this->ResamplingFactor << "\n";
+  os << indent << "MinimumComponentSize: " << this->MinimumComponentSize << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "OpeningRadius: " << this->OpeningRadius << "\n";
   os << indent << "ClosingRadius: " << this->ClosingRadius << "\n";

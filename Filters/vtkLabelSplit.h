@@ -99,6 +99,14 @@ public:
   ///@}
 
   ///@{
+  /// Connected components (voxels that share a face, an edge or a corner) of a label with fewer voxels are given to the
+  /// label that they share most faces with, before anything else. Field data of the output names them: DroppedLabels,
+  /// DroppedInto, DroppedVoxels (int64), DroppedPositions (world, of the first voxel). 0: none are. Default 0.
+  vtkSetClampMacro(MinimumComponentSize, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(MinimumComponentSize, vtkIdType);
+  ///@}
+
+  ///@{
   /// GiB that the whole chain may take by estimate (see Filters/MemoryEstimate.h): larger volumes are an error, before
   /// any work is done. 0: no limit. Default 0.
   vtkSetClampMacro(MemoryLimit, double, 0.0, 1e9);
@@ -158,6 +166,7 @@ protected:
   int Padding = 6;
   int Border = Closed;
   double ResamplingFactor = 1.0;
+  vtkIdType MinimumComponentSize = 0;
   double MemoryLimit = 0.0;
   double OpeningRadius = 0.0;
   double ClosingRadius = 0.0;

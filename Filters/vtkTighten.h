@@ -19,7 +19,10 @@
  *  - Rounds of curvature flow, which Fidelity holds to the voxels, each followed by a correction that makes the fields
  *    one partition again and gives back the volume that the flow took;
  *  - tightening (Williams and Rossignac 2005): TightenIterations of curvature flow between the opening and the closing
- *    by a ball of Radius. Then |mean curvature| <= 1 / Radius, and only the mortar between the two bounds has changed.
+ *    by a ball of Radius. Then |mean curvature| <= 1 / Radius, and only the mortar between the two bounds has changed;
+ *    parts, and gaps, that are too thin for the ball are left alone;
+ *  - connected parts that are small, or thin everywhere, get their volume back to a fiftieth (Core/PartKeeping.h), and
+ *    those that are gone their voxels.
  * Smoothing Tightening (the paper's; see Core/LevelSet.h), each material by itself:
  *  - exact signed distance of the mask;
  *  - antialiasing (Whitaker 2000): AntialiasIterations of curvature flow that keep every voxel on its side;
@@ -29,8 +32,9 @@
  * its arrays, each mask goes as soon as it is used up.
  *
  * Limits: with Tightening, parts thinner than twice the radius vanish, whole small materials with them, and where
- * neighbours, smoothed apart from each other, overlap or leave a gap the largest field wins. With VolumeKeeping, plates
- * of one voxel may thicken by half or vanish, by how they lie in the grid, and single voxels vanish.
+ * neighbours, smoothed apart from each other, overlap or leave a gap the largest field wins. With VolumeKeeping, spikes
+ * of one voxel on a thick part may vanish, and rows of voxels that meet at corners only may come apart. Meshes of parts
+ * of one or two voxels hold less than the fields do, since their edges cut across: a shorter edge there helps.
  *
  * Errors: blocks without "Mask", options out of range; for VolumeKeeping also blocks with a grid of their own.
  * Warnings: materials that vanish or lose more than half of their volume, with the figures; a radius for a material
@@ -96,7 +100,7 @@ public:
 
   ///@{
   /// The curvature, 1 / voxel, that it takes to turn a voxel over: larger keeps finer detail, and more staircase.
-  /// VolumeKeeping only. Default 0.85.
+  /// VolumeKeeping only. Default 0.6.
   vtkSetMacro(Fidelity, double);
   vtkGetMacro(Fidelity, double);
   ///@}
@@ -120,7 +124,7 @@ protected:
   std::map<vtkIdType, double> MaterialRadii;
   int AntialiasIterations = 10;
   int TightenIterations = 20;
-  double Fidelity = 0.85;
+  double Fidelity = 0.6;
   int Rounds = 8;
 
 private:

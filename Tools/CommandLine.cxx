@@ -201,6 +201,12 @@ std::map<std::string, Action> Actions(CommandLine& line)
       } },
     { "--background",
       [&line](const std::string& option, const std::string& value) { line.Background = ParseInteger(option, value); } },
+    { "--min-component",
+      [&line](const std::string& option, const std::string& value)
+      {
+        line.MinimumComponent =
+          static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0));
+      } },
     { "--triangles",
       [&line](const std::string& option, const std::string& value) {
         line.Triangles = static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 1));
@@ -262,7 +268,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
     }
   }
   for (const char* option : { "--particles", "--tets", "--border", "--smoothing", "--radius", "--material", "--epsilon",
-         "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit" })
+         "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component" })
   {
     if (line.Grid && given.count(option))
     {
@@ -344,6 +350,7 @@ Files to write (each only when asked for, and only whole):
 Which labels:
   --labels 1,2,5        mesh these, all others are background (default: all)
   --background L        the background's label (default 0)
+  --min-component N     connected parts of a label with fewer voxels go to the label around them (default 0: none)
 
 Method:
   --method particle     particles on smooth indicator functions (default)

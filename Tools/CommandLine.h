@@ -30,6 +30,7 @@ struct CommandLine
   std::optional<int> TetImprovePasses;                           ///< --tet-improve
   std::vector<long long> Labels;
   long long Background = 0;
+  long long MinimumComponent = 0; ///< voxels
   std::map<long long, MaterialOptions> Materials;
   bool FlatBorder = false; ///< --border flat
   bool Tightening = false; ///< --smoothing tighten

@@ -239,6 +239,10 @@ std::string LostJson(const std::vector<LossEntry>& losses)
   {
     Json json;
     json.Add(loss.Kind == "pair" ? "labels" : "label", loss.Labels).Text("stage", loss.Stage);
+    if (loss.Kind == "dropped")
+    {
+      json.Bool("on_request", true);
+    }
     json.Text("what", loss.What).Text("advice", loss.Advice);
     if (loss.Parts > 0)
     {
@@ -253,7 +257,7 @@ std::string LostJson(const std::vector<LossEntry>& losses)
 std::string Summary(const std::vector<LossEntry>& losses)
 {
   constexpr int most = 5; // labels that are named
-  long long labels = 0, parts = 0, pairs = 0;
+  long long labels = 0, parts = 0, dropped = 0, pairs = 0;
   std::string names;
   for (const LossEntry& loss : losses)
   {
@@ -262,6 +266,7 @@ std::string Summary(const std::vector<LossEntry>& losses)
       ++labels;
       names += labels > most ? "" : (names.empty() ? "" : ", ") + loss.Labels;
     }
+    dropped += loss.Kind == "dropped" ? 1 : 0;
     parts += loss.Kind == "parts" ? loss.Parts : 0;
     pairs += loss.Kind == "pair" ? 1 : 0;
   }
@@ -275,6 +280,7 @@ std::string Summary(const std::vector<LossEntry>& losses)
   };
   add(labels, "label (" + names + ")", "labels (" + names + (labels > most ? ", ..." : "") + ")");
   add(parts, "part of a label", "parts of labels");
+  add(dropped, "component that was dropped on request", "components that were dropped on request");
   add(pairs, "pair of labels that touched", "pairs of labels that touched");
   std::string text;
   for (std::size_t n = 0; n < words.size(); ++n)

@@ -60,7 +60,8 @@ std::vector<std::string> Verdict(const ReportInput& input, vtkLabelMeshReport* r
 ///    min_dihedral_degrees, max_dihedral_degrees, volume, worst_tetrahedron, histogram: of the dihedral angles by 10
 ///    degrees, materials: [the same of each, with label and name]},
 ///  lost [{label or labels, stage, what, advice; of a label and of its parts also parts, voxels, position}]: labels
-///    without a triangle, connected parts of a label without a voxel in the mesh, labels that touch no more,
+///    without a triangle, connected parts of a label without a voxel in the mesh, labels that touch no more;
+///    with on_request: true components that --min-component dropped, which no other figure counts any more,
 ///  seconds {stage: s, total; then Report: this check, not in the total}, peak_memory_bytes, threads, version.
 /// The stage of a loss is the first after which it can be seen.
 std::string JsonReport(const ReportInput& input, vtkLabelMeshReport* report);

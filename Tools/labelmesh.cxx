@@ -262,6 +262,7 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
   set(line.MaximumDeviation, &vtkLabelMesher::SetMaximumDeviation);
   set(line.Gradation, &vtkLabelMesher::SetGradation);
   set(line.MemoryLimit, &vtkLabelMesher::SetMemoryLimit);
+  mesher->SetMinimumComponentSize(line.MinimumComponent);
   mesher->SetTargetTriangles(line.Triangles);
   if (!line.Tets.empty())
   {

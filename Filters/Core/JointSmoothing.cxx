@@ -3,6 +3,7 @@
 
 #include "GaussianBlur.h"
 #include "NarrowBand.h"
+#include "PartKeeping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,8 @@ public:
   std::vector<TightenVolumes> Run()
   {
     this->Fields.resize(this->Materials.size());
+    const VoxelObjects parts = this->PartsOfLabels();
+    this->Distances.resize(this->Materials.size());
     this->ForEachMaterial(0.0, 0.1, "Distance", [this](std::size_t m, Scratch& scratch) { this->Begin(m, scratch); });
     for (int round = 1; round <= this->Options.Rounds; ++round)
     {
@@ -130,7 +133,8 @@ public:
     this->FindTopTwo();
     std::vector<TightenVolumes> results(this->Materials.size());
     this->ForEachMaterial(
-      0.7, 1.0, "Tightening", [&](std::size_t m, Scratch& scratch) { results[m] = this->Finish(m, scratch); });
+      0.7, 0.95, "Tightening", [&](std::size_t m, Scratch& scratch) { results[m] = this->Finish(m, scratch); });
+    this->KeepParts(parts);
     return results;
   }
 
@@ -140,6 +144,7 @@ private:
     TightenOptions options;
     options.Radius = this->Materials[m].Radius;
     options.TightenIterations = this->Options.TightenIterations;
+    options.KeepThin = true;
     options.Band = this->Options.Band;
     return options;
   }
@@ -211,7 +216,47 @@ private:
     this->Fields[m] = Field();
     band.Redistance(FinalRedistance);
     band.Widen(material.Mask, BandReach(options));
-    return TightenBand(band, material.Frame, options, Monitor(), material.Place());
+    this->Distances[m] = material.Place();
+    return TightenBand(band, material.Frame, options, Monitor(), this->Distances[m]);
+  }
+
+  /// The parts of the masks, as labels of the working lattice.
+  VoxelObjects PartsOfLabels() const
+  {
+    const int none = int(this->Materials.size());
+    std::vector<MaterialId> ids(static_cast<std::size_t>(this->Working.Size()), MaterialId(none));
+    for (std::size_t m = 0; m < this->Materials.size(); ++m)
+    {
+      const Lattice& frame = this->Materials[m].Frame;
+      const auto& offset = this->Offsets[m];
+      ParallelFor(0, Index(frame.Dims[1]) * frame.Dims[2], 0,
+        [&](Index first, Index last)
+        {
+          for (Index row = first; row < last; ++row)
+          {
+            const Index j = row % frame.Dims[1], k = row / frame.Dims[1];
+            const std::uint8_t* const mask = this->Materials[m].Mask + frame.At(0, j, k);
+            MaterialId* const to = ids.data() + this->Working.At(offset[0], offset[1] + j, offset[2] + k);
+            for (Index i = 0; i < frame.Dims[0]; ++i)
+            {
+              to[i] = mask[i] ? MaterialId(m) : to[i];
+            }
+          }
+        });
+    }
+    return FindVoxelParts(this->Working.Dims, ids, ids.front(), none + 1);
+  }
+
+  void KeepParts(const VoxelObjects& parts)
+  {
+    this->Top = TopTwo();
+    std::vector<PartField> fields;
+    for (std::size_t m = 0; m < this->Materials.size(); ++m)
+    {
+      const float end = float(this->Options.Band * this->Working.VoxelSize());
+      fields.push_back({ this->Materials[m].Frame, this->Offsets[m], this->Distances[m], -end });
+    }
+    LabelMesh::KeepParts(this->Working, fields, parts, PartKeepingOptions(), this->Progress.Part(0.95, 1.0));
   }
 
   /// The sample of the working lattice that a sample of a material's grown lattice is.
@@ -338,6 +383,7 @@ private:
   const Monitor& Progress;
   std::vector<std::array<Index, 3>> Offsets;
   std::vector<Field> Fields;
+  std::vector<float*> Distances; ///< results
   TopTwo Top;
   ScratchPool Scratches;
 };
@@ -347,7 +393,7 @@ void CheckOptions(const std::vector<MaterialMask>& materials, const JointSmoothi
   if (!(options.Fidelity >= 0) || !std::isfinite(options.Fidelity))
   {
     throw std::invalid_argument("Fidelity is " + std::to_string(options.Fidelity) +
-      "; expected 0 or more, in units of curvature (1 / voxel), such as 0.85.");
+      "; expected 0 or more, in units of curvature (1 / voxel), such as 0.6.");
   }
   if (options.Rounds < 0)
   {

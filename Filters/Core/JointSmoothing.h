@@ -25,7 +25,7 @@ struct MaterialMask
 struct JointSmoothingOptions
 {
   int Rounds = 8;         ///< of flow and correction
-  double Fidelity = 0.85; ///< curvature (1 / voxel) that it takes to turn a voxel over
+  double Fidelity = 0.6; ///< curvature (1 / voxel) that it takes to turn a voxel over
   int TightenIterations = 20;
   double Band = 4.0; ///< voxels: half width of the narrow bands
 };
@@ -37,8 +37,8 @@ struct JointSmoothingOptions
 /// keeping it needs more curvature than that force. Then, jointly, each field becomes half the difference to the
 /// largest of the others (one partition, whose zero sets coincide) plus the Gaussian mean of what the partition lacks
 /// of the labels, per area of its surface: staircases average out, lost thickness does not. The corrections are
-/// integrated, so that the flow's steady shrinkage is cancelled. At last each material is tightened (see Tighten) with
-/// a small radius.
+/// integrated, so that the flow's steady shrinkage is cancelled. Then each material is tightened (see Tighten, with
+/// KeepThin) with a small radius. At last small and thin parts get their volume back (see KeepParts).
 ///
 /// Returns the volumes in the order of the materials. Throws std::invalid_argument when a frame's samples are not those
 /// of the working lattice and for options out of range, Aborted when the monitor asks to stop.

@@ -2,7 +2,9 @@
 #include "LevelSet.h"
 
 #include "NarrowBand.h"
+#include "Parallel.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -11,7 +13,31 @@ namespace LabelMesh
 namespace
 {
 constexpr double IterationTime = 0.2; // voxels squared of curvature flow in one iteration
-constexpr double LargestRadius = 10;  // voxels: the work of the bounds grows with its cube
+// Of a surface from the opening or the closing, voxels: corners that are rounded, and parts that vanish.
+constexpr float RoundedBy = 0.3f, ThinBeyond = 0.6f;
+constexpr double LargestRadius = 10; // voxels: the work of the bounds grows with its cube
+
+/// How far a bound may stay from the surface, if what is thin is kept: beyond rounding less and less.
+float DistanceToBound(float distance)
+{
+  const float kept = RoundedBy * (ThinBeyond - distance) / (ThinBeyond - RoundedBy);
+  return distance <= RoundedBy ? distance : std::max(kept, 0.0f);
+}
+
+/// Brings the bounds back to the surface where a thin part, or a thin gap, lies between.
+void SpareThinParts(const NarrowBand& band, std::vector<float>& opening, std::vector<float>& closing)
+{
+  const std::vector<float> surface = band.Pack();
+  ParallelFor(0, Index(surface.size()), 0,
+    [&](Index first, Index last)
+    {
+      for (Index n = first; n < last; ++n)
+      {
+        opening[n] = surface[n] - DistanceToBound(surface[n] - opening[n]);
+        closing[n] = surface[n] + DistanceToBound(closing[n] - surface[n]);
+      }
+    });
+}
 }
 
 void CheckTightenOptions(const TightenOptions& options)
@@ -45,9 +71,13 @@ TightenVolumes TightenBand(
   {
     monitor.Step(0.0, "Opening");
     band.MeasureDistance(NarrowBand::BallReach(options.Radius));
-    const std::vector<float> opening = band.Opening(options.Radius);
+    std::vector<float> opening = band.Opening(options.Radius);
     monitor.Step(0.25, "Closing");
-    const std::vector<float> closing = band.Closing(options.Radius);
+    std::vector<float> closing = band.Closing(options.Radius);
+    if (options.KeepThin)
+    {
+      SpareThinParts(band, opening, closing);
+    }
     monitor.Step(0.5, "Tightening");
     band.SmoothBetween(IterationTime * options.TightenIterations, opening, closing);
     monitor.Step(0.8, "Re-distancing");

@@ -14,6 +14,7 @@ struct TightenOptions
   double Radius = 1.0;          ///< voxels (Lattice::VoxelSize): the least radius of curvature; 0: antialias only
   int AntialiasIterations = 10; ///< steps of curvature flow that may not change any voxel's side
   int TightenIterations = 20;   ///< steps of curvature flow between the opening and the closing
+  bool KeepThin = false;        ///< leave alone what the opening or the closing would take away as a whole
   double Band = 4.0;            ///< voxels: half width of the narrow band; beyond it the distance is +-Band
 };
 
@@ -50,7 +51,8 @@ TightenVolumes TightenBand(
 /// 4. Re-distancing.
 /// Spacing enters every step; with unequal spacings an iteration is cut into as many stable steps as it needs.
 ///
-/// What is thinner than 2 Radius vanishes, small materials with it: compare the volumes.
+/// What is thinner than 2 Radius vanishes, small materials with it: compare the volumes. With KeepThin it stays, and
+/// so do gaps: where the surface is farther from a bound than rounding explains, the bound is brought back to it.
 /// An empty or full mask gives -Band or +Band everywhere.
 /// Throws std::invalid_argument for options out of range, Aborted when the monitor asks to stop.
 TightenVolumes Tighten(const Lattice& frame, const std::uint8_t* mask, const TightenOptions& options,

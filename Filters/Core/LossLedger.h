@@ -31,10 +31,11 @@ struct Loss
   {
     WholeLabel,  ///< no triangle has the label
     SomeParts,   ///< connected parts of a label of which no voxel has it in the mesh
+    Dropped,     ///< a component that was too small, given to the second material on request
     TouchingPair ///< labels whose voxels share faces, but no triangle
   };
   Kinds Kind = WholeLabel;
-  std::array<MaterialId, 2> Materials{ NoMaterial, NoMaterial }; ///< a pair's, ascending; else the first only
+  std::array<MaterialId, 2> Materials{ NoMaterial, NoMaterial }; ///< a pair's, ascending; else the first (and what it was given to)
   LossStage Stage = LossStage::Unknown;
   Index Parts = 0;   ///< lost; of a pair 0
   Index Voxels = 0;  ///< of the lost parts, or faces of voxels of the pair

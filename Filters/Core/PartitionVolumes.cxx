@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PartitionVolumes.h"
 
+#include "CubicPoints.h"
 #include "Parallel.h"
 
 #include <limits>
@@ -9,7 +10,8 @@ namespace LabelMesh
 {
 namespace
 {
-constexpr int Parts = 4;          // of a cell's edge
+using Cubic = CubicPoints<4>; // of a cell
+
 constexpr Index LayersAtOnce = 8; // of cells: one task reads one slice of samples more
 
 /// A block's field at the samples of the working lattice.
@@ -39,31 +41,22 @@ public:
     return i >= this->First[0] && i <= this->Last[0] && j >= this->First[1] && j <= this->Last[1] &&
       k >= this->First[2] && k <= this->Last[2];
   }
-  /// The 4^3 samples around the cell at (i, j, k), x fastest. As IndicatorSet has it: the block's outermost samples go
-  /// on beyond it where the cell is inside, and elsewhere there is its value outside.
-  template <typename Samples>
-  void SamplesAround(Index i, Index j, Index k, Samples& samples) const
+  float Value(Index i, Index j, Index k) const
   {
-    if (!this->Covers(i, j, k) || !this->Covers(i + 1, j + 1, k + 1))
-    {
-      samples.fill(float(this->Block.Outside));
-      return;
-    }
-    const auto clamped = [this](int axis, Index at) { return std::clamp(at, this->First[axis], this->Last[axis]); };
-    const bool inner = this->Covers(i - 1, j - 1, k - 1) && this->Covers(i + 2, j + 2, k + 2);
+    return this->Covers(i, j, k) ? this->Inner(i, j, k) : float(this->Block.Outside);
+  }
+  /// The 4^3 samples from this one on.
+  void Stencil(Index i, Index j, Index k, Cubic::Samples& samples) const
+  {
+    const bool inside = this->Shared && this->Covers(i, j, k) && this->Covers(i + 3, j + 3, k + 3);
     float* to = samples.data();
-    for (Index z = k - 1; z <= k + 2; ++z)
+    for (Index z = k; z < k + 4; ++z)
     {
-      for (Index y = j - 1; y <= j + 2; ++y)
+      for (Index y = j; y < j + 4; ++y, to += 4)
       {
-        if (inner && this->Shared)
+        for (Index x = 0; x < 4; ++x)
         {
-          to = std::copy_n(this->Sample(i - 1, y, z), 4, to);
-          continue;
-        }
-        for (Index x = i - 1; x <= i + 2; ++x)
-        {
-          *to++ = this->Inner(clamped(0, x), clamped(1, y), clamped(2, z));
+          to[x] = inside ? this->Sample(i, y, z)[x] : this->Value(i + x, y, z);
         }
       }
     }
@@ -155,76 +148,24 @@ struct Share
   Index Parts;
 };
 
-constexpr int Support = 4;                                          // samples of the spline along each axis
-using CellSamples = std::array<float, Support * Support * Support>; // x fastest, from the one before the cell
-using CellParts = std::array<float, Parts * Parts * Parts>;
-
-/// The Catmull-Rom weights of the samples in the middle of each part, as IndicatorSet has them.
-constexpr std::array<std::array<float, Support>, Parts> SplineWeights()
-{
-  std::array<std::array<float, Support>, Parts> weights{};
-  for (int part = 0; part < Parts; ++part)
-  {
-    const float t = (float(part) + 0.5f) / Parts, t2 = t * t, t3 = t2 * t;
-    weights[part] = { -0.5f * t3 + t2 - 0.5f * t, 1.5f * t3 - 2.5f * t2 + 1.0f, -1.5f * t3 + 2.0f * t2 + 0.5f * t,
-      0.5f * t3 - 0.5f * t2 };
-  }
-  return weights;
-}
-
-/// The spline in the middle of each part of the cell, one axis after another.
-void Interpolate(const CellSamples& samples, CellParts& values)
-{
-  static constexpr auto weights = SplineWeights();
-  constexpr int slice = Support * Support;
-  for (int k = 0; k < Parts; ++k)
-  {
-    std::array<float, slice> alongZ{};
-    for (int s = 0; s < Support; ++s)
-    {
-#pragma omp simd
-      for (int n = 0; n < slice; ++n)
-      {
-        alongZ[n] += weights[k][s] * samples[n + slice * s];
-      }
-    }
-    for (int j = 0; j < Parts; ++j)
-    {
-      std::array<float, Support> alongY{};
-      for (int s = 0; s < Support; ++s)
-      {
-        for (int n = 0; n < Support; ++n)
-        {
-          alongY[n] += weights[j][s] * alongZ[n + Support * s];
-        }
-      }
-      for (int i = 0; i < Parts; ++i)
-      {
-        const auto& w = weights[i];
-        values[i + Parts * (j + Parts * k)] = w[0] * alongY[0] + w[1] * alongY[1] + w[2] * alongY[2] + w[3] * alongY[3];
-      }
-    }
-  }
-}
-
 void CutCell(const std::vector<WorkingField>& fields, const std::array<int, 8>& materials, Index i, Index j, Index k,
   std::vector<Share>& shares)
 {
-  constexpr int count = Parts * Parts * Parts;
+  static const Cubic cubic;
   std::array<int, 8> distinct = materials;
   std::sort(distinct.begin(), distinct.end());
   const auto end = std::unique(distinct.begin(), distinct.end());
-  CellSamples samples;
-  CellParts largest, values;
-  std::array<std::int32_t, count> winners;
+  Cubic::Points largest, values;
+  std::array<std::int32_t, Cubic::Count> winners;
   largest.fill(std::numeric_limits<float>::lowest());
   winners.fill(distinct[0]);
   for (auto material = distinct.begin(); material != end; ++material)
   {
-    fields[*material].SamplesAround(i, j, k, samples);
-    Interpolate(samples, values);
+    Cubic::Samples samples;
+    fields[*material].Stencil(i - 1, j - 1, k - 1, samples);
+    cubic.Interpolate(samples, values);
 #pragma omp simd
-    for (int part = 0; part < count; ++part)
+    for (int part = 0; part < Cubic::Count; ++part)
     {
       winners[part] = values[part] > largest[part] ? *material : winners[part];
       largest[part] = values[part] > largest[part] ? values[part] : largest[part];
@@ -255,7 +196,7 @@ void CountLayer(const std::vector<WorkingField>& fields, const Lattice& frame, c
       }
       if (!differ)
       {
-        parts[first] += Parts * Parts * Parts;
+        parts[first] += Cubic::Count;
         continue;
       }
       std::array<int, 8> materials;
@@ -326,7 +267,7 @@ std::vector<double> PartitionVolumes(const std::vector<IndicatorBlock>& blocks, 
   std::vector<double> volumes(blocks.size(), 0.0);
   for (const Share& share : shares)
   {
-    volumes[share.Material] += double(share.Parts) / (Parts * Parts * Parts) * working.VoxelVolume();
+    volumes[share.Material] += double(share.Parts) / Cubic::Count * working.VoxelVolume();
   }
   return volumes;
 }

@@ -360,12 +360,19 @@ private:
 };
 }
 
-VoxelObjects FindVoxelObjects(
+VoxelObjects FindVoxelParts(
   const std::array<int, 3>& dims, const std::vector<MaterialId>& ids, MaterialId background, int numberOfIds)
 {
   VoxelObjects result;
   result.Objects.resize(static_cast<std::size_t>(numberOfIds));
   PartFinder(dims, ids, background).Find(result);
+  return result;
+}
+
+VoxelObjects FindVoxelObjects(
+  const std::array<int, 3>& dims, const std::vector<MaterialId>& ids, MaterialId background, int numberOfIds)
+{
+  VoxelObjects result = FindVoxelParts(dims, ids, background, numberOfIds);
   SurfaceScan(dims, ids, background, numberOfIds).Scan(result);
   return result;
 }

@@ -56,6 +56,9 @@ struct VoxelObjects
 /// `ids` of a volume of `dims` samples, x fastest; each is below `numberOfIds`, as is the background's.
 VoxelObjects FindVoxelObjects(
   const std::array<int, 3>& dims, const std::vector<MaterialId>& ids, MaterialId background, int numberOfIds);
+/// The parts and runs alone, and of each object the numbers of voxels and parts: in a fraction of the time.
+VoxelObjects FindVoxelParts(
+  const std::array<int, 3>& dims, const std::vector<MaterialId>& ids, MaterialId background, int numberOfIds);
 }
 
 #endif

@@ -2,6 +2,7 @@
 #include "AnalyticFields.h"
 #include "GaussianBlur.h"
 #include "JointSmoothing.h"
+#include "PartitionVolumes.h"
 
 #include <gtest/gtest.h>
 
@@ -59,6 +60,23 @@ struct Volume
     return results;
   }
 };
+
+/// What each material holds of its voxels' volume, as a mesh of the interpolated fields would enclose it.
+std::vector<double> KeptShares(const Volume& volume)
+{
+  const auto results = volume.Smooth();
+  std::vector<IndicatorBlock> blocks;
+  for (std::size_t m = 0; m < results.size(); ++m)
+  {
+    blocks.push_back({ Label(m), volume.Frame, results[m].Distance.data(), -4.0 * volume.Frame.VoxelSize() });
+  }
+  std::vector<double> shares = PartitionVolumes(blocks, volume.Frame);
+  for (std::size_t m = 0; m < shares.size(); ++m)
+  {
+    shares[m] /= results[m].MaskVolume;
+  }
+  return shares;
+}
 
 /// A layout whose active samples are those of a set; its mask does not matter.
 BandLayout LayoutOf(const Lattice& frame, const std::function<bool(int, int, int)>& active)
@@ -178,6 +196,69 @@ TEST(JointSmoothing, APlateAndARodOfTwoVoxelsStay)
   }
   EXPECT_GT(results[1].Distance[volume.Frame.At(24, 24, 14)], 0);
   EXPECT_GT(results[2].Distance[volume.Frame.At(24, 23, 32)], 0);
+}
+
+TEST(JointSmoothing, PartsOfOneVoxelKeepTheirVolume)
+{
+  const auto within = [](const Vec3& x, const Vec3& first, const Vec3& last)
+  { return (x - first).minCoeff() > -0.1 && (last - x).minCoeff() > -0.1; };
+  for (const Vec3& spacing : { Vec3(1, 1, 1), Vec3(1, 1, 1.5) })
+  {
+    const Volume volume(MakeLattice(64, 48, 48, spacing), 10,
+      [&](const Vec3& at)
+      {
+        const Vec3 x = at.cwiseQuotient(spacing);
+        const double oblique = (x - Vec3(46, 14, 14)).dot(Vec3(1, 2, 3).normalized());
+        return within(x, Vec3(8, 8, 10), Vec3(26, 22, 10))                         ? 1 // a plate
+          : within(x, Vec3(8, 12, 20), Vec3(26, 12, 20))                           ? 2 // a rod
+          : within(x, Vec3(10, 30, 10), Vec3(10, 30, 10))                          ? 3 // a voxel
+          : within(x, Vec3(20, 30, 10), Vec3(21, 31, 11))                          ? 4 // eight
+          : within(x, Vec3(8, 26, 30), Vec3(26, 40, 30))                           ? 5 // two plates, one on the other
+          : within(x, Vec3(8, 26, 31), Vec3(26, 40, 31))                           ? 6
+          : within(x, Vec3(36, 28, 28), Vec3(43, 40, 40))                          ? 7 // two blocks with a gap
+          : within(x, Vec3(45, 28, 28), Vec3(52, 40, 40))                          ? 8
+          : std::abs(oblique) < 0.6 && within(x, Vec3(38, 6, 6), Vec3(54, 22, 22)) ? 9 // across the grid
+                                                                                   : 0;
+      });
+    const std::vector<double> shares = KeptShares(volume);
+    for (int m = 1; m < 10; ++m)
+    {
+      EXPECT_NEAR(shares[m], 1.0, m == 3 ? 0.15 : m == 4 ? 0.08 : 0.05) << volume.Materials[m].Name;
+    }
+  }
+}
+
+TEST(JointSmoothing, GrainsOfAFewVoxelsKeepTheirVolume)
+{
+  // Every voxel belongs to the nearest of 60 sites: cells of a hundred voxels, and some of a few.
+  std::vector<Vec3> sites;
+  unsigned state = 7;
+  const auto next = [&state]()
+  {
+    state = state * 1664525u + 1013904223u;
+    return double(state >> 8) / double(1 << 24);
+  };
+  for (int n = 0; n < 60; ++n)
+  {
+    const double x = next(), y = next(), z = next();
+    sites.emplace_back(17 * x, 17 * y, 17 * z);
+  }
+  const Volume volume(MakeLattice(30, 30, 30), 61,
+    [&](const Vec3& at)
+    {
+      const Vec3 x = at - Vec3(6, 6, 6);
+      if (x.minCoeff() < 0 || x.maxCoeff() > 17)
+      {
+        return 0;
+      }
+      const auto nearer = [&x](const Vec3& a, const Vec3& b) { return (a - x).norm() < (b - x).norm(); };
+      return 1 + int(std::min_element(sites.begin(), sites.end(), nearer) - sites.begin());
+    });
+  const std::vector<double> shares = KeptShares(volume);
+  for (int m = 1; m < 61; ++m)
+  {
+    EXPECT_NEAR(shares[m], 1.0, 0.05) << std::count(volume.Masks[m].begin(), volume.Masks[m].end(), 1) << " voxels";
+  }
 }
 
 TEST(JointSmoothing, NeighboursShareTheirSurface)

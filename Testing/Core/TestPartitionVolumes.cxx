@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "AnalyticFields.h"
+#include "CubicPoints.h"
 #include "PartitionVolumes.h"
 
 #include <gtest/gtest.h>
@@ -76,4 +77,32 @@ TEST(PartitionVolumes, OfABlockOnAGridOfItsOwnAndOneThatEndsEarly)
   EXPECT_NEAR(volumes[1], volume, 0.01 * volume);
   EXPECT_NEAR(volumes[0] + volumes[1], box, 1e-6 * box);
   EXPECT_TRUE(PartitionVolumes({}, frame).empty());
+}
+
+namespace
+{
+/// Interpolates x^2 + x y - 2 z from samples around `middle` (in samples) and compares.
+template <int Width>
+void ExpectQuadratic(double middle)
+{
+  const auto f = [](double x, double y, double z) { return x * x + x * y - 2 * z; };
+  typename CubicPoints<Width>::Samples samples;
+  typename CubicPoints<Width>::Points points;
+  for (int n = 0; n < int(samples.size()); ++n)
+  {
+    samples[n] = float(f(n % Width, n / Width % Width, n / (Width * Width)));
+  }
+  CubicPoints<Width>().Interpolate(samples, points);
+  for (int n = 0; n < int(points.size()); ++n)
+  {
+    const auto at = [&](int i) { return middle + (i + 0.5) / 4 - 0.5; };
+    EXPECT_NEAR(points[n], f(at(n % 4), at(n / 4 % 4), at(n / 16)), 1e-5);
+  }
+}
+}
+
+TEST(CubicPoints, ReproduceQuadraticsInACellAndInAVoxel)
+{
+  ExpectQuadratic<4>(1.5);
+  ExpectQuadratic<5>(2.0);
 }

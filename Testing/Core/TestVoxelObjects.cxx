@@ -128,6 +128,13 @@ TEST(VoxelObjects, RunsCoverTheVolumeAndPartsAreByFloodFill)
       EXPECT_EQ(found.Parts[run.Part].Id, noise.Ids[v]);
     }
   }
+  const VoxelObjects alone = FindVoxelParts({ 9, 8, 7 }, noise.Ids, 0, 3);
+  ASSERT_EQ(alone.Parts.size(), found.Parts.size());
+  ASSERT_EQ(alone.Runs.size(), found.Runs.size());
+  for (std::size_t p = 0; p < found.Parts.size(); ++p)
+  {
+    EXPECT_EQ(alone.Parts[p].Voxels, found.Parts[p].Voxels);
+  }
   Index components = 0;
   std::vector<bool> seen(part.size(), false);
   for (std::size_t start = 0; start < part.size(); ++start)

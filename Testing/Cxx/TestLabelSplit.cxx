@@ -558,3 +558,34 @@ TEST(MaterialMasks, ResamplingIsFairToThinLabels)
   const auto coarser = ResampleLabels(ids, frame, coarse);
   EXPECT_EQ(std::count(coarser.begin(), coarser.end(), 1), 0);
 }
+
+TEST(LabelSplit, DropsSmallComponentsAndNamesThem)
+{
+  // A block of 1 with a speck of 2 inside, and two voxels of 3 outside.
+  const std::array<int, 6> extent{ -2, 13, 4, 15, 0, 11 };
+  const auto image = MakeImage(extent,
+    [](int i, int j, int k)
+    {
+      const bool block = i >= 2 && i < 8 && j >= 7 && j < 13 && k >= 3 && k < 9;
+      return i == 4 && j == 9 && k == 5 ? 2 : block ? 1 : i == 11 && j == 6 && k < 2 ? 3 : 0;
+    });
+  image->SetOrigin(10, 20, 30);
+  image->SetSpacing(1, 2, 3);
+  vtkNew<vtkLabelSplit> split;
+  split->SetInputData(image);
+  split->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Segments");
+  split->SetMinimumComponentSize(2);
+  split->Update();
+  vtkFieldData* fieldData = split->GetOutput()->GetFieldData();
+  EXPECT_EQ(ReadHeader(split->GetOutput()).Materials.size(), 3u); // 0, 1, 3
+  ASSERT_EQ(fieldData->GetArray(Names::DroppedLabels)->GetNumberOfValues(), 1);
+  EXPECT_EQ(fieldData->GetArray(Names::DroppedLabels)->GetComponent(0, 0), 2);
+  EXPECT_EQ(fieldData->GetArray(Names::DroppedInto)->GetComponent(0, 0), 1);
+  EXPECT_EQ(fieldData->GetArray(Names::DroppedVoxels)->GetComponent(0, 0), 1);
+  const Vec3 position(fieldData->GetArray(Names::DroppedPositions)->GetTuple3(0));
+  EXPECT_LT((position - Vec3(14, 38, 45)).norm(), 1e-9);
+  split->SetMinimumComponentSize(3);
+  split->Update();
+  EXPECT_EQ(ReadHeader(split->GetOutput()).Materials.size(), 2u);
+  EXPECT_EQ(split->GetOutput()->GetFieldData()->GetArray(Names::DroppedLabels)->GetNumberOfValues(), 2);
+}
