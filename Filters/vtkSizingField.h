@@ -52,7 +52,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Edge length relative to the local feature size. Default 0.7.
+  /// Edge length relative to the local feature size. Default 0.65.
   vtkSetMacro(Epsilon, double);
   vtkGetMacro(Epsilon, double);
   ///@}
@@ -117,7 +117,7 @@ protected:
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  double Epsilon = 0.7;
+  double Epsilon = 0.65;
   double FeatureSizeFloor = 0.8;
   double MaximumDeviation = 0.2;
   double Gradation = 0.4;

@@ -364,7 +364,7 @@ Particle method (radii in voxels, lengths in world units):
   --radius R            least radius of curvature after smoothing (default 0.7)
   --material LABEL:key=value,...  for one material: radius=R, opening=R, closing=R, max-length=L, name=TEXT,
                         color=#rrggbb; may be given several times
-  --epsilon E           edge length over feature size (default 0.7)
+  --epsilon E           edge length over feature size (default 0.65)
   --min-length L, --max-length L  bounds of the edge length
   --deviation D         voxels that edges may stay beside curved surfaces (default 0.2; 0: no bound)
   --gradation G         how fast edge lengths may change (default 0.4)

@@ -11,7 +11,7 @@ namespace LabelMesh
 {
 struct SizingOptions
 {
-  double Epsilon = 0.7;          ///< h0 = Epsilon * max(LFS, FeatureSizeFloor)
+  double Epsilon = 0.65;         ///< h0 = Epsilon * max(LFS, FeatureSizeFloor)
   double FeatureSizeFloor = 0.8; ///< voxels: lower bound of the local feature size, near the tightening radius (paper)
   /// Voxels: how far an edge may stay beside the surface that it spans, by the curvature; never asks for less than
   /// Epsilon * FeatureSizeFloor, since curvatures that large are those of voxels; 0: no bound.

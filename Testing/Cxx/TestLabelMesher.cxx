@@ -209,7 +209,7 @@ TEST(LabelMesher, RunsOnlyTheStagesThatChanged)
   volume->Modified();
   mesher->SetRadius(0.7);
   mesher->SetRepairRounds(8);
-  mesher->SetEpsilon(0.7);
+  mesher->SetEpsilon(0.65);
   mesher->Update();
   EXPECT_EQ(runs(), (std::vector<int>{ 3, 3, 3, 4, 4, 5 })) << "new data runs everything";
   EXPECT_TRUE(first == BytesOf(mesher->GetOutput())) << "and what is kept has left no trace";

@@ -96,7 +96,7 @@ class TestLabelMesher(unittest.TestCase):
         mesher.AddLabel(3)
         mesher.SetMaterialName(3, "right")
         self.assertEqual(mesher.GetMaterialName(3), "right")
-        self.assertEqual((mesher.GetEpsilon(), mesher.GetRadius(), mesher.GetPadding()), (0.7, 0.7, 6))
+        self.assertEqual((mesher.GetEpsilon(), mesher.GetRadius(), mesher.GetPadding()), (0.65, 0.7, 6))
         mesher.SetInputData(image_of(two_boxes(np.uint8)))
         mesher.Update()
         self.assertEqual(mesher.GetSurfaces().GetNumberOfPartitionedDataSets(), 1)
