@@ -201,6 +201,8 @@ class TestOutput(CommandLineTest):
         labels[2, 2, 2] = 9
         make_volumes.write_mha(self.folder / "speck.mha", labels)
         self.mesh("speck.mha", "-o", "m.vtp", "--report", "r.json", "--quiet")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text())["lost"], [])
+        self.mesh("speck.mha", "-o", "m.vtp", "--report", "r.json", "--smoothing", "tighten", "--quiet")
         lost = json.loads((self.folder / "r.json").read_text())["lost"]
         self.assertEqual([entry["label"] for entry in lost if "label" in entry], [9])
         self.assertEqual(lost[0]["stage"], "Tighten")
@@ -208,6 +210,20 @@ class TestOutput(CommandLineTest):
         report = json.loads((self.folder / "r.json").read_text())
         self.assertEqual([m["label"] for m in report["materials"]], [2])
         self.assertEqual(report["lost"], [])
+
+    def test_min_component(self):
+        labels = SPHERES.copy()
+        labels[2, 2, 2] = 9
+        labels[2, 2, 28] = labels[3, 2, 28] = 2
+        make_volumes.write_mha(self.folder / "specks.mha", labels)
+        result = self.mesh("specks.mha", "-o", "m.vtp", "--report", "r.json", "--min-component", "3")
+        self.assertRegex(result.stderr, "2 components that were dropped on request")
+        report = json.loads((self.folder / "r.json").read_text())
+        dropped = [(entry["label"], entry["stage"], entry["on_request"], entry["voxels"], entry["position"])
+                   for entry in report["lost"]]
+        self.assertEqual(sorted(dropped), [(2, "LabelSplit", True, 2, [28, 2, 2]), (9, "LabelSplit", True, 1, [2, 2, 2])])
+        for material in report["materials"]:
+            self.assertEqual(material["voxels"], int((SPHERES == material["label"]).sum()))
 
     def test_certificate(self):
         """What is said at the end, and the same in the report."""
@@ -245,7 +261,7 @@ class TestOutput(CommandLineTest):
         labels[2, 2, 2] = 9
         labels[2, 2, 28] = labels[28, 3, 3] = 2
         make_volumes.write_mha(self.folder / "specks.mha", labels)
-        result = self.mesh("specks.mha", "-o", "m.vtp", "--report", "r.json")
+        result = self.mesh("specks.mha", "-o", "m.vtp", "--report", "r.json", "--smoothing", "tighten")
         report = json.loads((self.folder / "r.json").read_text())
         self.assertTrue(report["certified"], "what is there is sound")
         lost = {(str(entry.get("label", entry.get("labels"))), entry["stage"]): entry for entry in report["lost"]}
