@@ -318,7 +318,7 @@ TEST(Tetrahedra, AreReported)
   vtkNew<vtkUnstructuredGrid> bare;
   bare->ShallowCopy(mesher->GetTetrahedraOutput());
   bare->GetCellData()->Initialize();
-  const Listener listener(report);
+  const TestCollections::Listener listener(report);
   report->SetInputData(5, bare);
   report->Update();
   EXPECT_NE(listener.Errors.find("no cell array 'Label'"), std::string::npos) << listener.Errors;

@@ -169,6 +169,12 @@ class TestOutput(CommandLineTest):
         for material in report["materials"]:
             np.testing.assert_allclose(volumes[labels == material["label"]].sum(), material["volume"], rtol=1e-9)
         self.assertGreater(report["cells"]["3"], 100)
+        tetrahedra = report["tetrahedra"]
+        self.assertEqual((tetrahedra["count"], tetrahedra["slivers"]), (len(cells), 0))
+        self.assertEqual(sum(tetrahedra["histogram"]), 6 * len(cells))
+        self.assertGreater(tetrahedra["min_dihedral_degrees"], 12)
+        self.assertLess(tetrahedra["max_dihedral_degrees"], 155)
+        self.assertEqual(sum(material["count"] for material in tetrahedra["materials"]), len(cells))
         self.mesh(self.spheres, "--tets", "g.vtu", "--tet-method", "tetgen", "--quiet")
         self.assertGreater(read_grid(self.folder / "g.vtu").GetNumberOfCells(), 1000)
 
