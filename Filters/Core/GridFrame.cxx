@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -65,6 +66,17 @@ Lattice GridFrame::LatticeOf(const GridFrame& other) const
   Lattice lattice = other.Samples();
   const auto& e = other.Extent_;
   lattice.Origin = this->WorldToLocal(other.ToWorld(e[0], e[2], e[4]));
+  constexpr double close = 1e-6; // samples
+  for (int a = 0; a < 3; ++a)
+  {
+    // Most are samples of this frame: without what the way through the world has rounded, the work on them has the same
+    // bits wherever the image stands.
+    const double sample = std::round(lattice.Origin[a] / this->Spacing_[a]);
+    if (std::abs(lattice.Origin[a] / this->Spacing_[a] - sample) < close)
+    {
+      lattice.Origin[a] = this->Spacing_[a] * sample;
+    }
+  }
   return lattice;
 }
 }
