@@ -11,8 +11,9 @@ namespace LabelMesh
 {
 namespace
 {
-constexpr double LongestGap = 0.25;  // of an edge's length: what is more is no chord of this interface
-constexpr double MeanOfArc = 2. / 3; // of a parabola over its chord, in terms of its height
+constexpr double LongestGap = 0.25;    // of an edge's length: what is more is no chord of this interface
+constexpr double LeastThickness = 5.0; // of what a vertex moves into, in lengths of its move
+constexpr double MeanOfArc = 2. / 3;   // of a parabola over its chord, in terms of its height
 
 /// Of a triangle: its mean gap to the interface along its unit normal.
 struct FaceGap
@@ -147,6 +148,12 @@ std::vector<Vec3> Moves(const IndicatorSet& indicators, const SurfaceComplex& co
   return moves;
 }
 
+/// Whether what lies in the way of a move from x is thin, so that the sheet on its other side is near.
+bool IsThin(const IndicatorSet& indicators, const Vec3& x, const Vec3& move)
+{
+  return indicators.LargestMaterial(x + move) != indicators.LargestMaterial(x + LeastThickness * move);
+}
+
 /// Whether a triangle keeps its shape and its sense when its corners move.
 bool StaysGood(const SurfaceComplex& complex, Index t, const std::vector<Vec3>& moves, double leastRatio)
 {
@@ -205,13 +212,14 @@ void Restrain(const SurfaceComplex& complex, double leastRatio, std::vector<Vec3
 Index CorrectChords(const IndicatorSet& indicators, SurfaceComplex& complex, double leastRatio)
 {
   std::vector<Vec3> moves = Moves(indicators, complex);
-  for (Index v = 0; v < complex.NumberOfVertices(); ++v)
-  {
-    if (complex.IsFrozen(v) || complex.Star(v).empty())
+  ForEachVertex(complex,
+    [&](Index v)
     {
-      moves[v].setZero();
-    }
-  }
+      if (complex.IsFrozen(v) || complex.Star(v).empty() || IsThin(indicators, complex.Vertex(v).Position, moves[v]))
+      {
+        moves[v].setZero();
+      }
+    });
   Restrain(complex, leastRatio, moves);
   Index moved = 0;
   for (Index v = 0; v < complex.NumberOfVertices(); ++v)

@@ -16,8 +16,9 @@ namespace LabelMesh
 /// The signed gap between a triangle and its interface is to second order a quadratic function that is zero at the
 /// corners, so its mean is that of its values at the middles of the three edges. A vertex on a curve leaves it within
 /// the plane normal to the curve, by two thirds of the mean gap of the curve at the middles of its two edges there;
-/// points of four or more materials stay, and so does what is flat. A vertex stays, too, where a triangle would turn or
-/// fall below the radius ratio `leastRatio`, or lower if it is below.
+/// points of four or more materials stay, and so does what is flat. A vertex stays, too, where what it would move
+/// into is thin, so that opposite sheets do not come near each other, and where a triangle would turn or fall below the
+/// radius ratio `leastRatio`, or lower if it is below.
 ///
 /// One step: a second one would bring the volumes closer still, but roughens the surface where voxels left steps in it.
 /// Returns the number of vertices moved; their Residual is the distance to the interface. The same bits for any number

@@ -129,3 +129,28 @@ TEST(ChordCorrection, FrozenVerticesAndPoorTrianglesStay)
     EXPECT_GE(complex.Ratio(t), std::min(0.99, ratios[t]));
   }
 }
+
+TEST(ChordCorrection, NoSheetMovesIntoAThinPart)
+{
+  // A shell one voxel thick: the faces of its inner side would bulge into it by a third of that, those of its outer
+  // side bulge outwards.
+  const auto shell = [](const Vec3& x) { return 0.5 - std::abs((x - Centre).norm() - Radius); };
+  const SampledFields fields(
+    Frame, { [](const Vec3& x) { return (x - Centre).norm() - Radius - 0.5; }, shell, Ball(Centre, Radius - 0.5) });
+  SurfaceComplex complex = Sampled(fields, 7.0f);
+  std::vector<Vec3> before;
+  for (const Particle& p : complex.AllVertices())
+  {
+    before.push_back(p.Position);
+  }
+  CorrectChords(*fields, complex, 0.5);
+  std::array<double, 2> sums{}, counts{};
+  for (Index v = 0; v < complex.NumberOfVertices(); ++v)
+  {
+    const int side = complex.Vertex(v).Materials.Contains(2);
+    sums[side] += (complex.Vertex(v).Position - before[v]).norm();
+    counts[side] += 1.0;
+  }
+  EXPECT_GT(sums[0] / counts[0], 0.15);
+  EXPECT_LT(sums[1] / counts[1], 0.05);
+}
