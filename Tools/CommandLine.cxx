@@ -225,11 +225,18 @@ bool EndsWith(const std::string& text, const std::string& end)
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-void RequireSuffix(const std::string& option, const std::string& file, const std::string& suffix)
+void RequireSuffix(const std::string& option, const std::string& file, const std::vector<std::string>& suffixes)
 {
-  if (!file.empty() && (!EndsWith(file, suffix) || file.size() == suffix.size()))
+  const auto fits = [&file](const std::string& suffix)
+  { return EndsWith(file, suffix) && file.size() > suffix.size(); };
+  if (!file.empty() && std::none_of(suffixes.begin(), suffixes.end(), fits))
   {
-    Fail(option + " writes a " + suffix + " file, found '" + file + "'");
+    std::string all = suffixes[0];
+    for (std::size_t n = 1; n < suffixes.size(); ++n)
+    {
+      all += (n + 1 < suffixes.size() ? ", " : " or ") + suffixes[n];
+    }
+    Fail(option + " writes a " + all + " file, found '" + file + "'");
   }
 }
 
@@ -240,12 +247,12 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
   {
     Fail("no input file is given; labelmesh --help shows how it is used");
   }
-  RequireSuffix("-o", line.Mesh, ".vtp");
-  RequireSuffix("--surfaces", line.Surfaces, ".vtpc");
-  RequireSuffix("--particles", line.Particles, ".vtp");
-  RequireSuffix("--tets", line.Tets, ".vtu");
-  RequireSuffix("--report", line.Report, ".json");
-  RequireSuffix("--error-map", line.ErrorMap, ".vtp");
+  RequireSuffix("-o", line.Mesh, { ".vtp" });
+  RequireSuffix("--surfaces", line.Surfaces, { ".vtpc" });
+  RequireSuffix("--particles", line.Particles, { ".vtp" });
+  RequireSuffix("--tets", line.Tets, { ".vtu", ".msh", ".inp" });
+  RequireSuffix("--report", line.Report, { ".json" });
+  RequireSuffix("--error-map", line.ErrorMap, { ".vtp" });
   std::set<std::string> files = { line.Input };
   for (const std::string& file : { line.Mesh, line.Surfaces, line.Particles, line.Tets, line.Report, line.ErrorMap })
   {
@@ -343,7 +350,8 @@ Files to write (each only when asked for, and only whole):
   -o FILE.vtp           triangles, each once, with the labels of its two sides (BoundaryLabels)
   --surfaces FILE.vtpc  a closed surface per material, and the folder FILE beside it
   --particles FILE.vtp  the particles, with the cells they lie on
-  --tets FILE.vtu       tetrahedra that fill the materials and conform to the triangles, with their Label
+  --tets FILE.vtu       tetrahedra that fill the materials and conform to the triangles, with their Label; as .msh
+                        (Gmsh) or .inp (Abaqus, CalculiX) with named sets of materials and interfaces
   --report FILE.json    the certificate, counts, quality, volumes, what was lost and why, times
   --error-map FILE.vtp  the triangles with each point's distance to the voxels' own interface (DistanceToVoxels)
 

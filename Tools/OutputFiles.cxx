@@ -3,6 +3,8 @@
 
 #include "Messages.h"
 
+#include <vtkAbaqusLabelMeshWriter.h>
+#include <vtkGmshLabelMeshWriter.h>
 #include <vtkInformation.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSet.h>
@@ -205,8 +207,23 @@ void OutputFiles::WriteMesh(const std::string& file, vtkPolyData* mesh)
   WriteBytes(this->StagedPath(file), BytesOf<vtkXMLPolyDataWriter>(mesh, file), file);
 }
 
-void OutputFiles::WriteGrid(const std::string& file, vtkUnstructuredGrid* grid)
+void OutputFiles::WriteTetrahedra(const std::string& file, vtkUnstructuredGrid* grid)
 {
+  const std::string extension = fs::path(file).extension().string();
+  if (extension == ".msh" || extension == ".inp")
+  {
+    const vtkSmartPointer<vtkTetrahedraWriter> writer = extension == ".msh"
+      ? vtkSmartPointer<vtkTetrahedraWriter>(vtkSmartPointer<vtkGmshLabelMeshWriter>::New())
+      : vtkSmartPointer<vtkTetrahedraWriter>(vtkSmartPointer<vtkAbaqusLabelMeshWriter>::New());
+    Messages messages(writer);
+    writer->SetInputData(grid);
+    writer->SetFileName(this->StagedPath(file).c_str());
+    if (!writer->Write() || !messages.FirstError().empty())
+    {
+      Fail("cannot write '" + file + "'" + (messages.FirstError().empty() ? "" : ": " + messages.FirstError()));
+    }
+    return;
+  }
   WriteBytes(this->StagedPath(file), BytesOf<vtkXMLUnstructuredGridWriter>(grid, file), file);
 }
 

@@ -25,7 +25,8 @@ public:
   void Expect(const std::string& file);
 
   void WriteMesh(const std::string& file, vtkPolyData* mesh);
-  void WriteGrid(const std::string& file, vtkUnstructuredGrid* grid);
+  /// As .msh (Gmsh), .inp (Abaqus, CalculiX) or .vtu, by the file's extension.
+  void WriteTetrahedra(const std::string& file, vtkUnstructuredGrid* grid);
   /// A .vtpc file has a folder of its name beside it with a .vtp file per block.
   void WriteSurfaces(const std::string& file, vtkPartitionedDataSetCollection* surfaces);
   void WriteText(const std::string& file, const std::string& text);

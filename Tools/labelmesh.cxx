@@ -428,7 +428,7 @@ void MeshVolume(const CommandLine& line)
   }
   if (!line.Tets.empty())
   {
-    files.WriteGrid(line.Tets, mesher->GetTetrahedraOutput());
+    files.WriteTetrahedra(line.Tets, mesher->GetTetrahedraOutput());
   }
   if (!line.Particles.empty())
   {

@@ -437,7 +437,7 @@ class TestRefusals(CommandLineTest):
         self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--border", "flat")
         self.refuse("volume or tighten", self.spheres, *mesh, "--smoothing", "none")
         self.refuse("particle or grid", self.spheres, *mesh, "--method", "magic")
-        self.refuse("writes a .vtu file", self.spheres, *mesh, "--tets", "t.vtk")
+        self.refuse("writes a .vtu, .msh or .inp file", self.spheres, *mesh, "--tets", "t.vtk")
         self.refuse("packed or tetgen", self.spheres, *mesh, "--tets", "t.vtu", "--tet-method", "magic")
         self.refuse("belongs to --tets", self.spheres, *mesh, "--tet-refine", "1")
         self.refuse("belongs to --tets", self.spheres, *mesh, "--tet-improve", "1")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Examples/Simulation: the block of two layers, solved by CalculiX, against the exact solution."""
+import os
 import re
 import subprocess
 import sys
@@ -11,7 +12,11 @@ from labelmesh import vtkAbaqusLabelMeshWriter
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "Testing" / "Python"))
+sys.path.insert(0, str(ROOT / "Data"))
+import make_volumes  # noqa: E402
 from tetra_boxes import as_grid, box  # noqa: E402
+
+LABELMESH = os.environ["LABELMESH_EXECUTABLE"]
 
 EXAMPLE = ROOT / "Examples" / "Simulation" / "two_layers.py"
 
@@ -41,6 +46,29 @@ class TestSimulation(unittest.TestCase):
                 self.assertAlmostEqual(float(found), stress * layer / 1346.153846, places=5)
             for found in force.groups():
                 self.assertAlmostEqual(float(found), stress * 30, places=2)
+
+    def test_our_own_mesh(self):
+        """The volume two_layers, through the whole chain."""
+        make_volumes.main([".", "two_layers"])
+        command = [LABELMESH, "two_layers.mha", "--border", "flat", "--background", "9", "--quiet"]
+        names = ["--material", "1:name=soft", "--material", "2:name=stiff"]
+        subprocess.run([*command, *names, "--tets", "mesh.inp", "-o", "surface.vtp"], check=True, timeout=60)
+        result = solve("mesh.inp")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        error = re.search(r"largest error ([\d.e-]+) of the push", result.stdout)
+        self.assertLess(float(error.group(1)), 1e-4)
+        subprocess.run([*command, *names, "--tets", "mesh.msh", "-o", "surface.vtp"], check=True, timeout=60)
+        read = subprocess.run(["gmsh", "-check", "mesh.msh"], capture_output=True, text=True, timeout=60)
+        self.assertEqual(read.returncode, 0, read.stdout + read.stderr)
+        self.assertNotRegex(read.stdout + read.stderr, "Error|Warning")
+        text = Path("mesh.msh").read_text(encoding="utf-8")
+        for name in ("soft", "stiff", "soft_stiff", "border_z_max"):
+            self.assertIn(f'"{name}"', text)
+
+    def test_an_ending_of_no_format(self):
+        result = subprocess.run([LABELMESH, "x.mha", "--tets", "mesh.foo"], capture_output=True, text=True, timeout=60)
+        self.assertEqual((result.returncode, result.stderr),
+                         (1, "labelmesh: --tets writes a .vtu, .msh or .inp file, found 'mesh.foo'\n"))
 
     def test_a_model_that_cannot_be_solved(self):
         Path("empty.inp").write_text("*NODE, NSET=NALL\n1,0,0,0\n2,1,1,1\n*NSET, NSET=soft_stiff\n1\n")
