@@ -63,6 +63,15 @@ inline Field Not(const Field& f)
 {
   return [=](const Vec3& x) { return -f(x); };
 }
+/// A ball cut in two by the plane through its centre, material 1 above and 2 below: three interfaces that meet along a
+/// circle.
+inline SampledFields HalvedBall(const Lattice& frame, const Vec3& centre, double radius)
+{
+  const Field ball = Ball(centre, radius);
+  return SampledFields(frame,
+    { Not(ball), [=](const Vec3& x) { return std::min(ball(x), x[2] - centre[2]); },
+      [=](const Vec3& x) { return std::min(ball(x), centre[2] - x[2]); } });
+}
 /// The distance to the sites of a Voronoi diagram, negated: its differences are zero on the Voronoi walls.
 inline Field Site(const Vec3& site)
 {

@@ -16,15 +16,6 @@ const Lattice Frame = MakeLattice(40, 40, 40);
 const Vec3 Centre(19.7, 20.1, 19.9);
 constexpr double Radius = 13.0;
 
-/// A ball cut in two by the plane through its centre.
-SampledFields HalvedBall()
-{
-  const Field ball = Ball(Centre, Radius);
-  return SampledFields(Frame,
-    { Not(ball), [=](const Vec3& x) { return std::min(ball(x), x[2] - Centre[2]); },
-      [=](const Vec3& x) { return std::min(ball(x), Centre[2] - x[2]); } });
-}
-
 SurfaceComplex Sampled(const SampledFields& fields, float h)
 {
   const std::vector<Particle> particles =
@@ -86,7 +77,7 @@ TEST(ChordCorrection, FacesCutNothingOffABall)
 
 TEST(ChordCorrection, CurvesKeepTheirPlaneAndLeaveTheirChords)
 {
-  const SampledFields fields = HalvedBall();
+  const SampledFields fields = HalvedBall(Frame, Centre, Radius);
   SurfaceComplex complex = Sampled(fields, 3.0f);
   const double half = 2.0 / 3.0 * M_PI * Radius * Radius * Radius;
   const double before = VolumeOf(1, complex), radius = MeanRadiusOfCurve(complex);

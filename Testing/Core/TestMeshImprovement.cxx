@@ -24,15 +24,6 @@ const Lattice Frame = MakeLattice(40, 40, 40);
 const Vec3 Centre(19.7, 20.1, 19.9);
 constexpr double Radius = 13.0;
 
-/// A ball cut in two by the plane through its centre: three interfaces that meet along a circle.
-SampledFields HalvedBall()
-{
-  const Field ball = Ball(Centre, Radius);
-  return SampledFields(Frame,
-    { Not(ball), [=](const Vec3& x) { return std::min(ball(x), x[2] - Centre[2]); },
-      [=](const Vec3& x) { return std::min(ball(x), Centre[2] - x[2]); } });
-}
-
 SurfaceComplex Sampled(const SampledFields& fields, float h, int sweeps = 10)
 {
   SampleOptions options;
@@ -219,7 +210,7 @@ TEST(SurfaceComplex, FrozenVerticesTakePartInNoEdit)
 
 TEST(SurfaceComplex, CurvesCollapseAlongThemselvesAlone)
 {
-  const SampledFields fields = HalvedBall();
+  const SampledFields fields = HalvedBall(Frame, Centre, Radius);
   const SurfaceComplex sampled = Sampled(fields, 3.0f);
   const Index euler = EulerNumber(sampled);
   Index alongCurve = 0, acrossSurface = 0;
@@ -250,7 +241,7 @@ TEST(SurfaceComplex, CurvesCollapseAlongThemselvesAlone)
 
 TEST(VertexSmoothing, IndependentSetsShareNoTriangle)
 {
-  const SampledFields fields = HalvedBall();
+  const SampledFields fields = HalvedBall(Frame, Centre, Radius);
   const SurfaceComplex complex = Sampled(fields, 2.0f);
   std::vector<int> set(std::size_t(complex.NumberOfVertices()), -1);
   const auto sets = IndependentSets(complex);
@@ -276,7 +267,7 @@ TEST(VertexSmoothing, IndependentSetsShareNoTriangle)
 
 TEST(VertexSmoothing, LowersTheCostAndKeepsVerticesOnTheirCells)
 {
-  const SampledFields fields = HalvedBall();
+  const SampledFields fields = HalvedBall(Frame, Centre, Radius);
   SurfaceComplex complex = Sampled(fields, 2.0f);
   Index moves = 0;
   for (Index v = 0; v < complex.NumberOfVertices(); ++v)
@@ -308,7 +299,7 @@ TEST(VertexSmoothing, LowersTheCostAndKeepsVerticesOnTheirCells)
 
 TEST(MeshImprovement, BetterTrianglesOfTheSameShape)
 {
-  const SampledFields fields = HalvedBall();
+  const SampledFields fields = HalvedBall(Frame, Centre, Radius);
   SurfaceComplex complex = Sampled(fields, 2.0f);
   const Quality before = QualityOf(complex);
   const Index euler = EulerNumber(complex);
@@ -330,7 +321,7 @@ TEST(MeshImprovement, BetterTrianglesOfTheSameShape)
 
 TEST(MeshImprovement, LeavesFrozenVerticesWhereTheyAre)
 {
-  const SampledFields fields = HalvedBall();
+  const SampledFields fields = HalvedBall(Frame, Centre, Radius);
   SurfaceComplex complex = Sampled(fields, 2.0f);
   const std::vector<Particle> before = complex.AllVertices();
   for (Index v = 0; v < complex.NumberOfVertices(); v += 3)
@@ -347,7 +338,7 @@ TEST(MeshImprovement, LeavesFrozenVerticesWhereTheyAre)
 
 TEST(TriangleMending, JoinsTwoVerticesThatAreTooClose)
 {
-  const SampledFields fields = HalvedBall();
+  const SampledFields fields = HalvedBall(Frame, Centre, Radius);
   std::vector<Particle> particles = Sampled(fields, 2.0f, 20).AllVertices();
   Particle extra = particles.back();
   const Vec3 aside = extra.Normal.unitOrthogonal();
