@@ -24,7 +24,8 @@ float DistanceToBound(float distance)
   return distance <= RoundedBy ? distance : std::max(kept, 0.0f);
 }
 
-/// Brings the bounds back to the surface where a thin part, or a thin gap, lies between.
+/// Brings the bounds back to the surface where a thin part, or a thin gap, lies between. Where part and gap are thin
+/// alike it is noise, and may go.
 void SpareThinParts(const NarrowBand& band, std::vector<float>& opening, std::vector<float>& closing)
 {
   const std::vector<float> surface = band.Pack();
@@ -33,8 +34,12 @@ void SpareThinParts(const NarrowBand& band, std::vector<float>& opening, std::ve
     {
       for (Index n = first; n < last; ++n)
       {
-        opening[n] = surface[n] - DistanceToBound(surface[n] - opening[n]);
-        closing[n] = surface[n] + DistanceToBound(closing[n] - surface[n]);
+        const float below = surface[n] - opening[n], above = closing[n] - surface[n];
+        if (std::min(below, above) <= RoundedBy)
+        {
+          opening[n] = surface[n] - DistanceToBound(below);
+          closing[n] = surface[n] + DistanceToBound(above);
+        }
       }
     });
 }

@@ -52,7 +52,8 @@ TightenVolumes TightenBand(
 /// Spacing enters every step; with unequal spacings an iteration is cut into as many stable steps as it needs.
 ///
 /// What is thinner than 2 Radius vanishes, small materials with it: compare the volumes. With KeepThin it stays, and
-/// so do gaps: where the surface is farther from a bound than rounding explains, the bound is brought back to it.
+/// so do gaps: where the surface is farther from a bound than rounding explains, the bound is brought back to it, if it
+/// is not far from both, as in noise.
 /// An empty or full mask gives -Band or +Band everywhere.
 /// Throws std::invalid_argument for options out of range, Aborted when the monitor asks to stop.
 TightenVolumes Tighten(const Lattice& frame, const std::uint8_t* mask, const TightenOptions& options,
