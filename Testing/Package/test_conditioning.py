@@ -58,13 +58,16 @@ class TestConditioning(unittest.TestCase):
         for method in ("grid", "particle"):
             subprocess.run([os.environ["LABELMESH_EXECUTABLE"], volume, "--method", method, "-o", f"{method}.vtp", "--quiet"],
                            check=True)
-        result = run("particle.vtp", "grid.vtp")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(len(re.findall(r"TetGen inside (all|the) \d+", result.stdout)), 2, result.stdout)
-        for what in ("as it is:", "scaled by diagonal:"):
-            found = eigenvalues(result.stdout, what)
-            self.assertEqual(len(found), 2)
-            for least, most, condition in found:
+        for surface in ("particle.vtp", "grid.vtp"):
+            result = run(surface)
+            if surface == "grid.vtp" and result.returncode != 0:
+                # TetGen crashes on those of VTK 9.1, whose smoothing is another; then that is what has to be said.
+                self.assertRegex(result.stderr, "^conditioning: grid.vtp: TetGen cannot fill the outer triangles alone either")
+                continue
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(len(re.findall(r"TetGen inside (all|the) \d+", result.stdout)), 1, result.stdout)
+            for what in ("as it is:", "scaled by diagonal:"):
+                ((least, most, condition),) = eigenvalues(result.stdout, what)
                 self.assertAlmostEqual(most / least / condition, 1, places=4)
 
     def test_triangles_that_cut_each_other(self):
