@@ -31,6 +31,7 @@ struct CommandLine
   std::vector<long long> Labels;
   long long Background = 0;
   long long MinimumComponent = 0; ///< voxels
+  int MaximumUpsampling = 1;      ///< samples per voxel along each axis
   std::map<long long, MaterialOptions> Materials;
   bool FlatBorder = false; ///< --border flat
   bool Tightening = false; ///< --smoothing tighten
