@@ -130,6 +130,12 @@ int vtkParticleSampleCells::RequestData(
         }
         result = SampleCells(indicators, ReadLengths(sizing, header.Source), options, monitor.Part(0.02, 0.98));
       }
+      if (header.Materials.size() > 1 && result.Particles.empty())
+      {
+        vtkWarningMacro(
+          "There is no interface to sample: smoothing left no sample to any material but one. Use a smaller "
+          "radius, volume-keeping smoothing, or a finer grid (MaximumUpsampling of Label Split).");
+      }
       std::copy(result.CellCounts.begin(), result.CellCounts.end(), this->CellParticles);
       this->OpenCurveEnds = result.OpenCurveEnds;
       this->MeanMove = result.MeanMove;

@@ -38,7 +38,7 @@
  * Limits: structures that no grid cell shows are not found. At most eight materials at a particle.
  *
  * Errors: blocks without "Indicator", an image without "TargetLength" or with another direction. Empty collections give
- * empty outputs with their arrays.
+ * empty outputs with their arrays. Warning: several materials, but no interface between any of them.
  */
 #ifndef vtkParticleSampleCells_h
 #define vtkParticleSampleCells_h

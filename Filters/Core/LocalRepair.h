@@ -7,6 +7,9 @@
 #include "NeighborGrid.h"
 #include "SurfaceComplex.h"
 
+#include <map>
+#include <tuple>
+
 namespace LabelMesh
 {
 /// Where the particles did not give the mesh that they should: a wrong face, a non-manifold edge or vertex, a sliver.
@@ -69,6 +72,9 @@ private:
     std::vector<InterfaceTriangle> Faces;
   };
 
+  /// Whether the fault was tried before, in the same way, and nothing around it has changed since.
+  bool WasInVain(const Fault& fault, Placing placing) const;
+  void Remember(const Fault& fault, Placing placing, const Patch& patch);
   /// Whether a fault is worth a larger patch where the usual one has not the faces of the whole: wrong faces and
   /// non-manifold edges are.
   bool IsWorthMore(const Fault& fault) const;
@@ -103,6 +109,15 @@ private:
   double WantedRatio;
   NeighborGrid Grid; ///< of the vertices, where they were at first; numbered alike
   std::vector<char> Deleted;
+  struct Attempt
+  {
+    Index Time = 0;
+    std::vector<Index> Patch; ///< its particles
+  };
+  using Site = std::tuple<std::vector<Index>, std::array<MaterialId, 2>, Placing>;
+  std::map<Site, Attempt> InVain;
+  Index Time = 0;               ///< changes so far
+  std::vector<Index> ChangedAt; ///< the last change of each vertex or of the faces at it
 };
 }
 

@@ -2,12 +2,15 @@
 #include "MeshInterfaces.h"
 
 #include "ChordCorrection.h"
+#include "FaultRefinement.h"
 #include "LocalRepair.h"
 #include "ManifoldLabels.h"
 #include "MeshCuts.h"
 #include "MeshImprovement.h"
 #include "TetraLabeling.h"
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 
 namespace LabelMesh
@@ -49,48 +52,67 @@ bool IsPinch(const Fault& fault)
   return fault.Vertices.size() == 1;
 }
 
+std::vector<Fault> AllFaults(const IndicatorSet& indicators, const SurfaceComplex& complex)
+{
+  return FindFaults(complex, indicators.Background());
+}
+
+/// The faults that make a mesh invalid: wrong faces and non-manifold edges.
+std::vector<Fault> GraveFaults(const IndicatorSet& indicators, const SurfaceComplex& complex)
+{
+  std::vector<Fault> faults = AllFaults(indicators, complex);
+  faults.erase(std::remove_if(faults.begin(), faults.end(),
+                 [&](const Fault& fault)
+                 {
+                   const std::vector<Index>& v = fault.Vertices;
+                   return IsPinch(fault) ||
+                     (v.size() == 3 && !IsWrong(complex.AllVertices(), { { v[0], v[1], v[2] }, fault.Materials }));
+                 }),
+    faults.end());
+  return faults;
+}
+
+using Faults = std::function<std::vector<Fault>(const IndicatorSet&, const SurfaceComplex&)>;
+
 /// Mends what the particles got wrong, until nothing is left or nothing helps. Nearly all faults are mended in their
-/// place; for those whose change reaches beyond their patch all particles are tetrahedralised once more.
-void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const MeshOptions& options,
-  MeshResult& result, const Monitor& monitor)
+/// place; for those whose change reaches beyond their patch all particles are tetrahedralised once more. Adds the
+/// rounds to the result's; returns what knows the particles that are left.
+std::unique_ptr<LocalRepair> MendFaults(const IndicatorSet& indicators, const Faults& find, int rounds,
+  double wantedRatio, SurfaceComplex& complex, MeshResult& result, const Monitor& monitor)
 {
   using Placing = LocalRepair::Placing;
-  std::vector<Fault> faults = FindFaults(complex, indicators.Background());
-  if (faults.empty())
-  {
-    return;
-  }
+  std::vector<Fault> faults = find(indicators, complex);
   // It remembers which particles it has deleted, so it is made anew with the complex alone.
-  const double wanted = std::min(options.RepairBelow, PoorRatio);
-  auto repair = std::make_unique<LocalRepair>(indicators, complex, wanted);
+  auto repair = std::make_unique<LocalRepair>(indicators, complex, wantedRatio);
   const auto rebuild = [&]()
   {
     complex = Build(indicators, repair->RemainingParticles(), result, monitor.Part(1.0, 1.0));
-    repair = std::make_unique<LocalRepair>(indicators, complex, wanted);
-    faults = FindFaults(complex, indicators.Background());
+    repair = std::make_unique<LocalRepair>(indicators, complex, wantedRatio);
+    faults = find(indicators, complex);
   };
+  int round = 0;
   const auto pass = [&](Placing placing)
   {
     Index mended = 0;
     for (std::size_t n = 0; n < faults.size(); ++n)
     {
-      monitor.Step((result.Rounds + double(n) / double(faults.size())) / options.RepairRounds, "Repairing");
+      monitor.Step((round + double(n) / double(faults.size())) / rounds, "Repairing");
       mended += repair->Mend(faults[n], placing);
     }
     return mended;
   };
   bool replaced = false;
-  for (; result.Rounds < options.RepairRounds && !faults.empty(); ++result.Rounds)
+  for (; round < rounds && !faults.empty(); ++round, ++result.Rounds)
   {
     if (pass(Placing::Faces) > 0)
     {
       replaced = true;
-      faults = FindFaults(complex, indicators.Background());
+      faults = find(indicators, complex);
       continue;
     }
     if (std::all_of(faults.begin(), faults.end(), IsPinch))
     {
-      return;
+      break;
     }
     if (replaced)
     {
@@ -99,9 +121,60 @@ void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const
     }
     if (pass(Placing::Particles) == 0)
     {
-      return;
+      break;
     }
     rebuild();
+  }
+  return repair;
+}
+
+/// Mends what the particles got wrong; where grave faults stay there become twice as many particles along each axis
+/// around them, and again. The mesh with the fewest grave faults is kept, the first of those.
+void RepairFaults(const IndicatorSet& indicators, SurfaceComplex& complex, const MeshOptions& options,
+  MeshResult& result, const Monitor& monitor)
+{
+  constexpr int refinements = 4, refinedRounds = 2;
+  constexpr std::size_t mostFaults = 12;
+  if (options.RepairRounds == 0 || AllFaults(indicators, complex).empty())
+  {
+    return;
+  }
+  const double wanted = std::min(options.RepairBelow, PoorRatio);
+  const std::unique_ptr<LocalRepair> repair =
+    MendFaults(indicators, AllFaults, options.RepairRounds, wanted, complex, result, monitor.Part(0.0, 0.5));
+  std::vector<Fault> faults = GraveFaults(indicators, complex);
+  if (faults.empty())
+  {
+    return;
+  }
+  std::vector<Particle> particles = repair->RemainingParticles();
+  std::size_t least = faults.size();
+  SurfaceComplex current = complex;
+  for (int n = 0; n < refinements && least > 0; ++n)
+  {
+    const std::vector<Particle> added = ParticlesAround(indicators, current, faults);
+    if (added.empty())
+    {
+      return;
+    }
+    particles.insert(particles.end(), added.begin(), added.end());
+    MeshResult attempt = result;
+    const double start = 0.5 + 0.5 * n / refinements, end = 0.5 + 0.5 * (n + 1) / refinements;
+    current = Build(indicators, std::move(particles), attempt, monitor.Part(start, start));
+    if (GraveFaults(indicators, current).size() > mostFaults)
+    {
+      return; // it makes things worse, and mending hundreds takes minutes
+    }
+    particles = MendFaults(indicators, GraveFaults, refinedRounds, wanted, current, attempt, monitor.Part(start, end))
+                  ->RemainingParticles();
+    faults = GraveFaults(indicators, current);
+    result.Rounds = attempt.Rounds;
+    if (faults.size() < least)
+    {
+      least = faults.size();
+      result = attempt;
+      complex = current;
+    }
   }
 }
 
