@@ -241,7 +241,7 @@ vtkSmartPointer<vtkPolyData> SurfaceOf(MaterialId m, const std::vector<Index>& t
   surface->SetPolys(EqualCells(connectivity, 3));
   CopyTuples(mesh->GetPointData(), pointIds, surface->GetPointData());
   CopyTuples(mesh->GetCellData(), cellIds, surface->GetCellData());
-  surface->GetCellData()->AddArray(pairs);
+  surface->GetCellData()->SetScalars(pairs);
   return surface;
 }
 
@@ -413,7 +413,7 @@ void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& head
       i, RadiusRatio(mesh.Vertices[v[0]].Position, mesh.Vertices[v[1]].Position, mesh.Vertices[v[2]].Position));
   }
   output->SetPolys(EqualCells(connectivity, 3));
-  output->GetCellData()->AddArray(pairs);
+  output->GetCellData()->SetScalars(pairs); // what viewers colour by, without being told
   output->GetCellData()->AddArray(ratios);
   AddMaterialSets(vertices, header.Materials, output->GetPointData());
   WriteMaterials(output->GetFieldData(), header.Materials, header.Background);

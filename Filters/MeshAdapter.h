@@ -27,9 +27,9 @@ std::vector<Particle> ParticlesFromPolyData(vtkPolyData* input, const Collection
 void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Particle>& particles,
   const CollectionHeader& header, vtkPolyData* output);
 
-/// Triangles with cell arrays BoundaryLabels and RadiusRatio and point arrays CellDimension, NumberOfMaterials,
-/// Materials. Turns triangles over for mirrored frames and orders each pair as the contract says: the background label
-/// second, else ascending. Field data as WriteMaterials.
+/// Triangles with cell arrays BoundaryLabels (the active scalars) and RadiusRatio and point arrays CellDimension,
+/// NumberOfMaterials, Materials. Turns triangles over for mirrored frames and orders each pair as the contract says:
+/// the background label second, else ascending. Field data as WriteMaterials.
 void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output);
 
 /// Tetrahedra with cell arrays Label and RadiusRatio; the points of the interface come first, with the bits that
@@ -40,7 +40,8 @@ void TetrahedraToGrid(const TetraMesh& mesh, const CollectionHeader& header, vtk
 /// and Color, with the interface's own points (one where a surface touches itself stands there once for each fan of its
 /// triangles); from any interface mesh that keeps the BoundaryLabels contract. A
 /// material without triangles has an empty block. Point and cell arrays are kept; BoundaryLabels is (own label, the
-/// other side's), so that here too the normal points from the first to the second. Throws as ReadInterface does.
+/// other side's), the active scalars, so that here too the normal points from the first to the second. Throws as
+/// ReadInterface does.
 void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output);
 
 /// An interface mesh in Core's terms, in world coordinates.

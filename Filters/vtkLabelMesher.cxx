@@ -78,6 +78,40 @@ int vtkLabelMesher::GetStageRuns(const char* name) const
   return stage ? stage->Runs : 0;
 }
 
+double* vtkLabelMesher::GetAllStageSeconds()
+{
+  std::transform(this->Stages->All.begin(), this->Stages->All.end(), this->AllStageSeconds,
+    [](const Pipeline::Stage& stage) { return stage.Seconds; });
+  return this->AllStageSeconds;
+}
+
+int* vtkLabelMesher::GetAllStageRuns()
+{
+  std::transform(this->Stages->All.begin(), this->Stages->All.end(), this->AllStageRuns,
+    [](const Pipeline::Stage& stage) { return stage.Runs; });
+  return this->AllStageRuns;
+}
+
+vtkIdType vtkLabelMesher::GetPredictedParticles() const
+{
+  return this->Stages->Sizing->GetPredictedParticles();
+}
+
+vtkIdType vtkLabelMesher::GetNumberOfParticles()
+{
+  return this->GetParticles()->GetNumberOfPoints();
+}
+
+vtkIdType vtkLabelMesher::GetNumberOfTriangles()
+{
+  return this->GetOutput()->GetNumberOfPolys();
+}
+
+vtkIdType vtkLabelMesher::GetNumberOfTetrahedra()
+{
+  return this->GetTetrahedraOutput()->GetNumberOfCells();
+}
+
 vtkPartitionedDataSetCollection* vtkLabelMesher::GetSurfaces()
 {
   return vtkPartitionedDataSetCollection::SafeDownCast(this->GetOutputDataObject(1));

@@ -236,6 +236,21 @@ public:
   ///@}
 
   ///@{
+  /// The same of all six, in order.
+  double* GetAllStageSeconds() VTK_SIZEHINT(6);
+  int* GetAllStageRuns() VTK_SIZEHINT(6);
+  ///@}
+
+  ///@{
+  /// Of the last run: about how many particles the sizing predicted for the interfaces, how many there are, those
+  /// inside the materials too, and how many triangles and tetrahedra came out.
+  vtkIdType GetPredictedParticles() const;
+  vtkIdType GetNumberOfParticles();
+  vtkIdType GetNumberOfTriangles();
+  vtkIdType GetNumberOfTetrahedra();
+  ///@}
+
+  ///@{
   /// Output ports 1 to 4.
   vtkPartitionedDataSetCollection* GetSurfaces();
   vtkPolyData* GetParticles();
@@ -262,6 +277,8 @@ private:
 
   class Pipeline;
   std::unique_ptr<Pipeline> Stages;
+  double AllStageSeconds[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+  int AllStageRuns[6] = { 0, 0, 0, 0, 0, 0 };
 };
 
 #endif
