@@ -7,6 +7,7 @@
 #include "MeshCuts.h"
 #include "MeshImprovement.h"
 #include "TetraLabeling.h"
+#include "VolumeCorrection.h"
 
 #include <memory>
 
@@ -154,6 +155,10 @@ void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex,
     if (options.CorrectChords)
     {
       CorrectChords(indicators, improved, options.RepairBelow);
+    }
+    if (!options.WantedVolumes.empty())
+    {
+      CorrectVolumes(indicators, options.WantedVolumes, options.RepairBelow, improved);
     }
     std::vector<Index> frozen = VerticesOfCuts(improved);
     if (frozen.empty() || PutBack(complex, frozen, PoorRatio, improved))
