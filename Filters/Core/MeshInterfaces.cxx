@@ -160,8 +160,9 @@ void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex,
     {
       CorrectVolumes(indicators, options.WantedVolumes, options.RepairBelow, improved);
     }
-    std::vector<Index> frozen = VerticesOfCuts(improved);
-    if (frozen.empty() || PutBack(complex, frozen, PoorRatio, improved))
+    const std::vector<Cut> cuts = FindCuts(improved);
+    std::vector<Index> frozen = VerticesOf(cuts);
+    if (PutBack(complex, cuts, PoorRatio, improved))
     {
       result.KeptFromCutting = Index(frozen.size()) + complex.NumberOfFrozen();
       complex = std::move(improved);
