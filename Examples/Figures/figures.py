@@ -8,9 +8,10 @@ from matplotlib.colors import to_rgb
 
 import thin_wall
 from mesh import bends, read_point_array
-from scene import PAGE, Sheet, actor, camera_for, colour_bar, framed, mapped, render, smooth
+from scene import PAGE, Sheet, actor, camera_for, colour_bar, framed, mapped, render, smooth, veiled
 
-GAP = 0.06  # between panels, inches
+GAP = 0.06   # between panels, inches
+VEIL = 0.25  # how much of a veil is seen
 
 
 def panel(columns, aspect=1.0):
@@ -36,7 +37,7 @@ def material_actors(subject, mesh, labels, dpi, edges=False):
 
 
 def veils(subject, mesh, dpi):
-    return [actor(smooth(mesh.surface(label).polydata()), subject.colour(label), opacity=0.18, dpi=dpi)
+    return [actor(smooth(mesh.surface(label).polydata()), subject.colour(label), dpi=dpi)
             for label in subject.veiled if (mesh.sides == label).any()]
 
 
@@ -54,21 +55,22 @@ def surfaces(subject, runs, dpi):
     run = runs.get("particle")
     mesh, labels = run.mesh, shown_labels(subject, run.mesh)
     aspect = subject.aspect
-    camera = camera_for(mesh.bounds(), subject.view, subject.up, aspect)
+    camera = camera_for(mesh.used(), subject.view, subject.up, aspect)
     closeups = [camera.zoomed(*closeup) for closeup in subject.closeups]
-    columns = 1 + 1 / max(len(closeups), 1) if closeups else 1
-    height = (PAGE - GAP) / (aspect + 1 / len(closeups)) if closeups else PAGE / aspect
-    picture = render(material_actors(subject, mesh, labels, dpi) + veils(subject, mesh, dpi), camera,
-                     (height * aspect, height), dpi)
+    height = (PAGE - GAP) / (aspect + 1 / len(closeups))
+    size = (height * aspect, height)
+    picture = render(material_actors(subject, mesh, labels, dpi), camera, size, dpi)
+    if subject.veiled:
+        picture = veiled(picture, render(veils(subject, mesh, dpi), camera, size, dpi), VEIL)
     for closeup in closeups:
         framed(picture, camera, closeup, dpi)
     small = (height - GAP * (len(closeups) - 1)) / len(closeups)
     parts = [render(material_actors(subject, mesh, labels, dpi, edges=True), closeup, (small, small), dpi)
              for closeup in closeups]
-    gap = np.full((picture.shape[0] - sum(part.shape[0] for part in parts), parts[0].shape[1], 3), 255, np.uint8)
-    stack = np.concatenate([piece for part in parts for piece in (part, gap)][:2 * len(parts) - 1]
-                           if len(parts) == 2 else parts)
-    stack = np.concatenate([stack, np.full((picture.shape[0] - len(stack), stack.shape[1], 3), 255, np.uint8)])
+    stack = np.full((picture.shape[0], parts[0].shape[1], 3), 255, np.uint8)
+    for number, part in enumerate(parts):  # the first at the top, the last at the bottom
+        top = round(number * (len(stack) - len(part)) / max(len(parts) - 1, 1))
+        stack[top:top + len(part)] = part
     names = ", ".join(subject.name(label) for label in labels)
     veil = " behind the " + ", ".join(subject.name(label) for label in subject.veiled) if subject.veiled else ""
     caption = (f"Surfaces of the {subject.title}: {names}{veil}; close-ups of the framed parts with their edges. "
@@ -83,7 +85,7 @@ def materials_apart(subject, runs, dpi):
     top, bottom = [], []
     for number, label in enumerate(labels):
         mesh = run.mesh.surface(label)
-        camera = camera_for(mesh.bounds(), subject.view, subject.up, 1.25)
+        camera = camera_for(mesh.used(), subject.view, subject.up, 1.25)
         closeup = camera.zoomed(*subject.closeups[0])
         size = panel(len(labels), 1.25)
         picture = render([actor(smooth(mesh.polydata()), subject.colour(label), dpi=dpi)], camera, size, dpi)
@@ -102,11 +104,10 @@ def shared_boundary(subject, runs, dpi):
     run = runs.get("particle")
     labels = shown_labels(subject, run.mesh)[:2]
     view, up = (1.0, -0.25, 0.12), (0, 0, 1)
-    whole = camera_for(run.mesh.bounds(), view, up)
     together = material_actors(subject, run.mesh, labels, dpi, edges=True)
     size = panel(3, 0.72)
-    low, high = run.mesh.bounds()
-    pictures = [(render(together, camera_for((low, high), view, up, 0.72), size, dpi), "(a) both")]
+    whole = camera_for(run.mesh.used(), view, up, 0.72)
+    pictures = [(render(together, whole, size, dpi), "(a) both")]
     shared = (run.mesh.sides == labels[0]).any(axis=1) & (run.mesh.sides == labels[1]).any(axis=1)
     colour = "#c9463d"
     for number, label in enumerate(labels):
@@ -116,8 +117,8 @@ def shared_boundary(subject, runs, dpi):
         tilted = np.array(view) + 1.1 * outwards / np.linalg.norm(outwards)  # from where the boundary is seen
         actors = [actor(run.mesh.only(own & ~shared).surface(label).polydata(), subject.colour(label), edges=True, dpi=dpi),
                   actor(run.mesh.only(shared).surface(label).polydata(), colour, edges=True, dpi=dpi)]
-        camera = camera_for((low, high), tilted, up, 0.72)
-        camera.centre = np.mean(run.mesh.only(own).bounds(), axis=0)
+        camera = camera_for(run.mesh.only(own).used(), tilted, up, 0.72)
+        camera.height = whole.height
         pictures.append((render(actors, camera, size, dpi), f"{letter(number + 1)} {subject.name(label)} alone"))
     caption = (f"The {subject.title}, together and one by one, at the same scale. The {int(shared.sum()):,} triangles of their "
                f"common boundary (red) are the same in both surfaces. {counts(run.report)}.")
@@ -140,7 +141,7 @@ def grid_against_particles(subject, runs, dpi):
     rows = []
     both = [runs.get("grid"), runs.get("particle")]
     aspect = subject.aspect
-    camera = camera_for(both[1].mesh.bounds(), subject.view, subject.up, aspect)
+    camera = camera_for(both[1].mesh.used(), subject.view, subject.up, aspect)
     closeup = camera.zoomed(*subject.closeups[0])
     height = (PAGE - GAP) / (1 + aspect)
     for number, run in enumerate(both):
@@ -189,7 +190,7 @@ def tetrahedra_cut(subject, runs, dpi):
     faces, owner = outer_faces(tetrahedra[behind], labels[behind])
     cut = Mesh(points, faces, np.column_stack([owner, np.zeros_like(owner)]))
     aspect = subject.section_aspect
-    camera = camera_for((points.min(axis=0), points.max(axis=0)), subject.section, subject.up, aspect)
+    camera = camera_for(points, subject.section, subject.up, aspect)
     closeup = camera.zoomed(*subject.section_closeup)
     height = (PAGE - GAP) / (1 + aspect)
     colours = mapped(cut.polydata(), np.array([to_rgb(subject.colour(int(label))) for label in owner]))
@@ -216,7 +217,7 @@ def maps(subject, runs, dpi):
     labels = shown_labels(subject, mesh)
     chosen = np.isin(mesh.sides, labels).any(axis=1)
     visible = mesh.only(chosen)
-    camera = camera_for(mesh.bounds(), subject.view, subject.up, subject.aspect)
+    camera = camera_for(mesh.used(), subject.view, subject.up, subject.aspect)
     size = panel(2, subject.aspect)
     voxel = runs.volume.voxel()
     angles = bends(mesh)[chosen]

@@ -34,8 +34,12 @@ class Mesh:
     def centres(self):
         return self.points[self.triangles].mean(axis=1)
 
+    def used(self):
+        """The points that have a triangle."""
+        return self.points[np.unique(self.triangles)]
+
     def bounds(self):
-        used = self.points[np.unique(self.triangles)]
+        used = self.used()
         return used.min(axis=0), used.max(axis=0)
 
     def polydata(self):

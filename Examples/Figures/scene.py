@@ -18,7 +18,7 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkLightKit, vtkPolyDataMappe
                                          vtkWindowToImageFilter)
 
 COLUMN, PAGE = 3.4, 7.0  # inches: one column of a journal, and both
-PRINT, SMALL = 300, 80   # dots per inch
+PRINT, SMALL = 300, 60   # dots per inch
 SUPERSAMPLING = 2
 EDGE_COLOUR = (0.13, 0.13, 0.15)
 plt.rcParams.update({"font.family": "DejaVu Sans", "font.size": 7, "axes.linewidth": 0.5, "lines.linewidth": 0.8,
@@ -48,13 +48,14 @@ class Camera:
                       width * self.height)
 
 
-def camera_for(bounds, view, up, aspect=1.0, margin=1.04):
-    """Shows a box whole."""
-    low, high = (np.asarray(corner, float) for corner in bounds)
-    camera = Camera((low + high) / 2, view, up, 1.0)
-    right, upward, _ = camera.axes()
-    half = (high - low) / 2
-    width, height = 2 * np.abs(right) @ half, 2 * np.abs(upward) @ half
+def camera_for(points, view, up, aspect=1.0, margin=1.04):
+    """Shows all points; `aspect` is the picture's width over its height."""
+    camera = Camera(np.zeros(3), view, up, 1.0)
+    frame = np.stack(camera.axes())
+    placed = points @ frame.T
+    low, high = placed.min(axis=0), placed.max(axis=0)
+    width, height, _ = high - low
+    camera.centre = (low + high) / 2 @ frame
     camera.height = margin * max(height, width / aspect)
     return camera
 
@@ -77,7 +78,7 @@ def mapped(data, colours):
     return data
 
 
-def actor(data, colour=None, opacity=1.0, edges=False, dpi=PRINT, edge_points=0.35, ambient=0.3):
+def actor(data, colour=None, edges=False, dpi=PRINT, edge_points=0.35, ambient=0.3):
     """`edge_points`: width of the edges in points of the printed figure."""
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(data)
@@ -87,7 +88,6 @@ def actor(data, colour=None, opacity=1.0, edges=False, dpi=PRINT, edge_points=0.
     style = result.GetProperty()
     if colour is not None:
         style.SetColor(to_rgb(colour))
-    style.SetOpacity(opacity)
     style.SetAmbient(ambient)
     style.SetDiffuse(1 - 0.8 * ambient)
     if edges:
@@ -106,9 +106,6 @@ def render(actors, camera, size, dpi):
     for each in actors:
         renderer.AddActor(each)
     vtkLightKit().AddLightsToRenderer(renderer)
-    if any(each.GetProperty().GetOpacity() < 1 for each in actors):
-        renderer.SetUseDepthPeeling(True)
-        renderer.SetMaximumNumberOfPeels(12)
     eye = renderer.GetActiveCamera()
     eye.ParallelProjectionOn()
     eye.SetParallelScale(camera.height / 2)
@@ -119,7 +116,6 @@ def render(actors, camera, size, dpi):
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
-    window.SetAlphaBitPlanes(1)
     window.SetSize(*(SUPERSAMPLING * number for number in pixels))
     window.AddRenderer(renderer)
     window.Render()
@@ -133,6 +129,11 @@ def render(actors, camera, size, dpi):
     window.Finalize()
     blocks = picture.reshape(height // SUPERSAMPLING, SUPERSAMPLING, width // SUPERSAMPLING, SUPERSAMPLING, 3)
     return (blocks.mean(axis=(1, 3)) + 0.5).astype(np.uint8)
+
+
+def veiled(picture, veil, share):
+    """A picture behind a veil: both have the same camera. Cheaper than transparent surfaces, and without their inside."""
+    return (picture * (1 - share) + veil * share + 0.5).astype(np.uint8)
 
 
 def framed(picture, camera, closeup, dpi, points=1.0, colour="#c03028"):

@@ -25,7 +25,7 @@ class Subject:
     section_aspect: float = 1.0
     section_closeup: tuple = ((0.0, 0.05), 0.25)
     wall_view: tuple = (0.5, -1.0, 0.4)  # of figure 4
-    figures: tuple = (4, 8, 9)  # of the paper; the number of the surfaces' own figure is 1, 5, 6 or 7
+    figures: tuple = ()       # numbers of the paper's figures that have a counterpart
 
     def colour(self, label):
         return self.colours.get(label) or PALETTE[(label - 1) % len(PALETTE)]
@@ -40,7 +40,8 @@ SPHERES = Subject("two spheres", {1: "top", 2: "bottom"}, cut=True, aspect=0.8,
 FROG = Subject("frog", {1: "tissue", 2: "bone", 3: "guts", 4: "brain"},
                {1: "#8fbf6a", 2: "#efe3c2", 3: "#d97a73", 4: "#6ba3d6"},
                view=(0.0, -0.45, 0.9), up=(0, 1, 0), shown=(2, 3, 4), veiled=(1,),
-               closeups=(((0.0, 0.2), 0.2), ((0.0, -0.1), 0.2)), figures=(6, 8, 9), aspect=0.7, section=(0, 0, 1), section_aspect=0.7)
+               closeups=(((0.125, -0.155), 0.18), ((-0.3, -0.03), 0.18)), figures=(6, 8, 9), aspect=1.3, section=(0, 0, 1),
+               section_aspect=1.3)
 BRAIN = Subject("brain", {1: "CSF", 2: "grey matter", 3: "white matter"},
                 {1: "#6ba3d6", 2: "#c9a59b", 3: "#efe3c2"}, view=(0.8, 0.5, 0.4),
                 closeups=(((0.0, 0.1), 0.2),), figures=(5, 8, 9), apart=(3, 1), shown=(3,), aspect=1.1)
@@ -55,4 +56,4 @@ def subject_of(stem):
     for beginning, subject in KNOWN.items():
         if stem.startswith(beginning):
             return subject
-    return Subject(stem, {}, figures=(1, 4, 8, 9))
+    return Subject(stem, {}, figures=(1, 4, 5, 8, 9))
