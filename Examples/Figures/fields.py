@@ -34,6 +34,7 @@ def tighten(masks, radius=None):
     if radius is not None:
         stage.SetSmoothingToTightening()
         stage.SetRadius(radius)
+        stage.AddObserver("WarningEvent", lambda *_: None)  # that material is lost, which figure 4 is about
     stage.Update()
     return stage
 

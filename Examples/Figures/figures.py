@@ -82,7 +82,7 @@ def materials_apart(subject, runs, dpi):
     """Figure 5: two materials, each by itself, with a close-up of each."""
     run = runs.get("particle")
     labels = list(subject.apart) or shown_labels(subject, run.mesh)[:2]
-    top, bottom = [], []
+    top, bottom, parts = [], [], []
     for number, label in enumerate(labels):
         mesh = run.mesh.surface(label)
         camera = camera_for(mesh.used(), subject.view, subject.up, 1.25)
@@ -90,13 +90,14 @@ def materials_apart(subject, runs, dpi):
         size = panel(len(labels), 1.25)
         picture = render([actor(smooth(mesh.polydata()), subject.colour(label), dpi=dpi)], camera, size, dpi)
         material = next(m for m in run.report["materials"] if m["label"] == label)
-        top.append((framed(picture, camera, closeup, dpi), f"{letter(number)} {subject.name(label)}: {counts(material)}"))
         closeup_size = (size[0], size[0] / 1.8)
+        top.append((framed(picture, camera, closeup, dpi, aspect=1.8),
+                    f"{letter(number)} {subject.name(label)}: {material['triangles']:,} triangles"))
+        parts.append(f"{subject.name(label)} {counts(material)}")
         bottom.append((render([actor(mesh.polydata(), subject.colour(label), edges=True, dpi=dpi)], closeup, closeup_size,
                               dpi), ""))
-    names = " and ".join(subject.name(label) for label in labels)
-    return Sheet([top, bottom], caption_height=0.19), (f"Meshes of the {names} of the {subject.title}; below, the framed "
-                                                       "parts with their edges.")
+    caption = f"Two materials of the {subject.title}: {'; '.join(parts)}. Below, the framed parts with their edges."
+    return Sheet([top, bottom], caption_height=0.19), caption
 
 
 def shared_boundary(subject, runs, dpi):

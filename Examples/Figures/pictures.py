@@ -4,18 +4,22 @@ import io
 import sys
 from pathlib import Path
 
-from PIL import Image
+from PIL import Image, ImageColor
 
-WIDTH = 1050  # dots
+WIDTH = 1050               # dots
+FRAME_COLOUR = "#c03028"   # around what a close-up shows
 
 
 def for_screen(path, width=WIDTH):
-    """A PNG of at most that width, in 256 colours."""
+    """A PNG of at most that width, in 256 colours. White and frames keep theirs, which may not be among the frequent ones."""
     picture = Image.open(path).convert("RGB")
     if picture.width > width:
         picture = picture.resize((width, round(picture.height * width / picture.width)), Image.LANCZOS)
+    frequent = picture.quantize(254).getpalette()[:3 * 254]
+    colours = Image.new("P", (1, 1))
+    colours.putpalette(frequent + list(ImageColor.getrgb(FRAME_COLOUR)) + [255] * 3)
     output = io.BytesIO()
-    picture.quantize(256, dither=Image.Dither.NONE).save(output, "PNG", optimize=True)
+    picture.quantize(palette=colours, dither=Image.Dither.NONE).save(output, "PNG", optimize=True)
     return output.getvalue()
 
 

@@ -17,6 +17,8 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkLightKit, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
                                          vtkWindowToImageFilter)
 
+from pictures import FRAME_COLOUR
+
 COLUMN, PAGE = 3.4, 7.0  # inches: one column of a journal, and both
 PRINT, SMALL = 300, 60   # dots per inch
 SUPERSAMPLING = 2
@@ -136,13 +138,14 @@ def veiled(picture, veil, share):
     return (picture * (1 - share) + veil * share + 0.5).astype(np.uint8)
 
 
-def framed(picture, camera, closeup, dpi, points=1.0, colour="#c03028"):
-    """Draws the border of a close-up's (square) part into a picture, in place, and returns it."""
+def framed(picture, camera, closeup, dpi, aspect=1.0, points=1.0, colour=FRAME_COLOUR):
+    """Draws the border of a close-up's part into a picture, in place, and returns it."""
     high, wide = picture.shape[:2]
     right, upward, _ = camera.axes()
     offset = closeup.centre - camera.centre
     middle = np.array([wide / 2 + offset @ right * high / camera.height, high / 2 - offset @ upward * high / camera.height])
-    half, thick = closeup.height * high / camera.height / 2, max(1, round(points / 72 * dpi))
+    half = closeup.height * high / camera.height / 2 * np.array([aspect, 1.0])
+    thick = max(1, round(points / 72 * dpi))
     left, top = np.round(middle - half).astype(int)
     end_x, end_y = np.round(middle + half).astype(int)
     ink = (np.array(to_rgb(colour)) * 255).astype(np.uint8)

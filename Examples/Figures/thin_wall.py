@@ -100,7 +100,7 @@ def figure(subject, runs, dpi):
     masks.Update()
     cases = [("(a) the voxels", block(masks, 1), "Mask", 0.5),
              ("(b) r = 1", block(tighten(split(image), 1.0), 1), "TightDistance", 0.0),
-             ("(c) r = 0.6, twice the resolution", block(tighten(fine, 0.6), 1), "TightDistance", 0.0),
+             ("(c) r = 0.6, finer grid", block(tighten(fine, 0.6), 1), "TightDistance", 0.0),
              ("(d) our default", block(tighten(split(image)), 1), "TightDistance", 0.0)]
     width = (PAGE - 3 * 0.06) / 4
     camera = Camera((low + high) / 2, subject.wall_view, subject.up, 1.35 * float((high - low).max()))

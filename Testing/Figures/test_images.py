@@ -12,10 +12,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "Examples" / "Figures")]
 from compare_images import THRESHOLD, difference  # noqa: E402
+from pictures import for_screen  # noqa: E402
 
-BASELINES = Path(__file__).resolve().parent / "Baseline"
+BASELINES = HERE / "Baseline"
 VOLUMES = ("two_spheres_small", "thin_plate")  # together they have all figures
 EXPECTED = {"two_spheres_small": {"figure_2_junctions", "figure_3_indicator_functions", "figure_7_shared_boundary",
                                   "figure_8_grid_and_particles", "figure_9_tetrahedra", "maps", "histograms"},
@@ -53,7 +55,7 @@ def main(reproduce, accept):
             baseline = BASELINES / f"{name}.{stem}.png"
             if accept:
                 BASELINES.mkdir(exist_ok=True)
-                shutil.copy(path, baseline)
+                baseline.write_bytes(for_screen(path))
             error = difference(path, baseline, output / f"{name}.{stem}.difference.png")
             print(f"{name} {stem}: {error:.2f}")
             if error > THRESHOLD:
