@@ -19,6 +19,7 @@ packages=(
   mpi-default-bin xvfb xauth                                       # pvbatch; a display for pictures and for the application
 )
 test_packages=(
+  dpkg-dev                                                         # makes and tries the Debian package
   gmsh python3-gmsh calculix-ccx                                   # read the meshes for simulation, and solve with them
 )
 
