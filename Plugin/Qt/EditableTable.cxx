@@ -3,11 +3,14 @@
 
 #include <QColorDialog>
 #include <QContextMenuEvent>
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <QItemSelectionModel>
 #include <QLocale>
 #include <QMenu>
+#include <QPalette>
 #include <QStyle>
+#include <QStyledItemDelegate>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +19,22 @@ namespace
 {
 constexpr int LargestNumberOfRows = 10; // shown without scrolling
 constexpr int SmallestNumberOfRows = 3;
+
+/// The editor of a cell has a name, by which tests find it.
+class CellDelegate : public QStyledItemDelegate
+{
+public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+  QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& option, const QModelIndex& index) const override
+  {
+    QWidget* editor = QStyledItemDelegate::createEditor(parent, option, index);
+    if (editor)
+    {
+      editor->setObjectName("Editor");
+    }
+    return editor;
+  }
+};
 }
 
 bool EditableTableModel::setData(const QModelIndex& index, const QVariant& value, int role)
@@ -32,6 +51,13 @@ bool EditableTableModel::toNumber(const QString& text, double& number)
     number = QLocale().toDouble(text, &ok);
   }
   return ok && number >= 0 && std::isfinite(number);
+}
+
+QBrush EditableTableModel::faint()
+{
+  const QPalette palette = QGuiApplication::palette();
+  const QColor text = palette.color(QPalette::Text), base = palette.color(QPalette::Base);
+  return QColor((text.red() + base.red()) / 2, (text.green() + base.green()) / 2, (text.blue() + base.blue()) / 2);
 }
 
 SelectionProxy::SelectionProxy(EditableTableModel* source, QObject* parent)
@@ -107,6 +133,7 @@ EditableTableView::EditableTableView(EditableTableModel* model, QWidget* parent)
 {
   this->setModel(this->Proxy);
   this->Proxy->setSelection(this->selectionModel());
+  this->setItemDelegate(new CellDelegate(this));
   this->setSelectionBehavior(SelectRows);
   this->setSelectionMode(ExtendedSelection);
   this->setEditTriggers(DoubleClicked | EditKeyPressed | AnyKeyPressed);
@@ -121,6 +148,43 @@ EditableTableView::EditableTableView(EditableTableModel* model, QWidget* parent)
   this->verticalHeader()->setDefaultSectionSize(this->fontMetrics().height() + 6);
   this->horizontalHeader()->setHighlightSections(false);
   QObject::connect(this->Proxy, &QAbstractItemModel::modelReset, this, &QWidget::updateGeometry);
+}
+
+void EditableTableView::setElastic(const QVector<int>& columns, int least)
+{
+  this->Elastic = columns;
+  this->LeastWidth = least * this->fontMetrics().averageCharWidth();
+  for (int column = 0; column < this->Proxy->columnCount(); ++column)
+  {
+    const bool elastic = columns.contains(column);
+    this->horizontalHeader()->setSectionResizeMode(
+      column, elastic ? QHeaderView::Interactive : QHeaderView::ResizeToContents);
+  }
+  QObject::connect(
+    this->Proxy, &QAbstractItemModel::modelReset, this, &EditableTableView::fitColumns, Qt::QueuedConnection);
+  QObject::connect(
+    this->Proxy, &QAbstractItemModel::dataChanged, this, &EditableTableView::fitColumns, Qt::QueuedConnection);
+  this->fitColumns();
+}
+
+void EditableTableView::fitColumns()
+{
+  const QHeaderView* header = this->horizontalHeader();
+  int left = this->viewport()->width();
+  for (int column = 0; column < this->Proxy->columnCount(); ++column)
+  {
+    left -= this->Elastic.contains(column) ? 0 : header->sectionSize(column);
+  }
+  for (const int column : this->Elastic)
+  {
+    this->setColumnWidth(column, std::max(this->LeastWidth, left / int(this->Elastic.size())));
+  }
+}
+
+void EditableTableView::resizeEvent(QResizeEvent* event)
+{
+  QTableView::resizeEvent(event);
+  this->fitColumns();
 }
 
 QSize EditableTableView::sizeHint() const

@@ -34,6 +34,8 @@ public:
 protected:
   /// A number of 0 or more as the user wrote it; false where it is none.
   static bool toNumber(const QString& text, double& number);
+  /// What is a default is written in this: half-way between the text and what is behind it.
+  static QBrush faint();
 };
 
 /// Sorts and filters by what the rows say; an edit of a selected row is an edit of all selected rows.
@@ -68,6 +70,9 @@ public:
   explicit EditableTableView(EditableTableModel* model, QWidget* parent = nullptr);
 
   SelectionProxy* proxy() const { return this->Proxy; }
+  /// Columns are as wide as they need; these share the width that is left, but get `least` characters each.
+  void setElastic(const QVector<int>& columns, int least);
+
   /// As high as its rows, up to ten.
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
@@ -76,9 +81,11 @@ protected:
   void keyPressEvent(QKeyEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
   bool edit(const QModelIndex& index, EditTrigger trigger, QEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   QItemSelectionModel::SelectionFlags selectionCommand(const QModelIndex& index, const QEvent* event) const override;
 
 private:
+  void fitColumns();
   void toggle();
   bool chooseColor(const QModelIndex& index);
   bool isCheckBox(const QModelIndex& index, const QPoint& position) const;
@@ -86,6 +93,8 @@ private:
   QModelIndex checkable() const;
 
   SelectionProxy* Proxy;
+  QVector<int> Elastic;
+  int LeastWidth = 0;
 };
 
 #endif

@@ -4,9 +4,7 @@
 #include "MaterialsModel.h"
 
 #include <QBrush>
-#include <QGuiApplication>
 #include <QLocale>
-#include <QPalette>
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +105,7 @@ QVariant InterfacesModel::text(const Row& row, int column) const
     {
       const qint64 label = row.Labels[column];
       const QString name = this->Materials->nameOf(label);
-      return label == this->Materials->background() ? QStringLiteral("%1 (background)").arg(label)
+      return label == this->Materials->background() ? QStringLiteral("%1 background").arg(label)
                                                     : QStringLiteral("%1 %2").arg(label).arg(name);
     }
     case FacesColumn:
@@ -145,7 +143,7 @@ QVariant InterfacesModel::data(const QModelIndex& index, int role) const
     case Qt::ForegroundRole:
     {
       const bool faint = row.Faces == 0 || (column == LengthColumn && !this->Lengths.count(row.Labels));
-      return faint ? QVariant(QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text)) : QVariant();
+      return faint ? QVariant(EditableTableModel::faint()) : QVariant();
     }
     case Qt::ToolTipRole:
       return row.Faces == 0 ? QVariant(QStringLiteral("The two do not touch in this volume"))

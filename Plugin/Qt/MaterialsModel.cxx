@@ -2,9 +2,7 @@
 #include "MaterialsModel.h"
 
 #include <QBrush>
-#include <QGuiApplication>
 #include <QLocale>
-#include <QPalette>
 
 #include <algorithm>
 #include <iterator>
@@ -363,8 +361,10 @@ QVariant MaterialsModel::data(const QModelIndex& index, int role) const
   switch (role)
   {
     case Qt::DisplayRole:
-      return column == LabelColumn && label == this->Background ? QVariant(QStringLiteral("%1 (background)").arg(label))
-                                                                : this->text(label, column);
+      // What nobody named is told apart by what it is.
+      return column == NameColumn && label == this->Background && !this->isOwn(label, column)
+        ? QVariant(QStringLiteral("background"))
+        : this->text(label, column);
     case Qt::EditRole:
       return column == ColorColumn ? QVariant(this->colorOf(label).name()) : this->text(label, column);
     case SortRole:
@@ -378,12 +378,12 @@ QVariant MaterialsModel::data(const QModelIndex& index, int role) const
         ? QVariant(this->isMeshed(label) ? Qt::Checked : Qt::Unchecked)
         : QVariant();
     case Qt::TextAlignmentRole:
-      return column >= VoxelsColumn ? QVariant(int(Qt::AlignRight | Qt::AlignVCenter)) : QVariant();
+      return column >= RadiusColumn ? QVariant(int(Qt::AlignRight | Qt::AlignVCenter)) : QVariant();
     case Qt::ForegroundRole:
     {
       const bool faint = !this->isOwn(label, column) || (label != this->Background && !this->isMeshed(label)) ||
         !this->InVolume.count(label);
-      return faint ? QVariant(QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text)) : QVariant();
+      return faint ? QVariant(EditableTableModel::faint()) : QVariant();
     }
     case Qt::ToolTipRole:
       return this->toolTip(label, column);
@@ -398,11 +398,12 @@ QVariant MaterialsModel::headerData(int section, Qt::Orientation orientation, in
   {
     return QVariant();
   }
-  static const char* const titles[] = { "Label", "Name", "Color", "Voxels", "Radius\n(voxels)", "Length\n(world)" };
-  static const char* const tips[] = { "The label; checked: mesh it", "The name that blocks and files carry",
-    "The color, shared with the color maps of the labels", "How many voxels have the label",
+  static const char* const titles[] = { "Label", "", "Name", "Radius\n(voxels)", "Length\n(world)", "Voxels" };
+  static const char* const tips[] = { "The label; checked: mesh it",
+    "The color, shared with the color maps of the labels", "The name that blocks and files carry",
     "Least radius of curvature of the smoothed surface, in voxels",
-    "Longest edge on the material's surface, in the length unit of the image; auto: as the sizing says" };
+    "Longest edge on the material's surface, in the length unit of the image; auto: as the sizing says",
+    "How many voxels have the label" };
   if (role == Qt::DisplayRole)
   {
     return QString(titles[section]);

@@ -29,11 +29,11 @@ public:
   enum Column
   {
     LabelColumn, ///< with the check box: mesh it
-    NameColumn,
     ColorColumn,
-    VoxelsColumn,
+    NameColumn,
     RadiusColumn,
     LengthColumn,
+    VoxelsColumn,
     NumberOfColumns
   };
 

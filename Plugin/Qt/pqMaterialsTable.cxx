@@ -39,16 +39,12 @@ namespace
 const char* const OwnArrays[] = { "BoundaryLabels", "Label" };
 
 /// Numbers are looked at in columns as wide as they need; what is left belongs to the names.
-EditableTableView* MakeView(EditableTableModel* model, const char* name, const QList<int>& stretched)
+EditableTableView* MakeView(EditableTableModel* model, const char* name, const QVector<int>& elastic)
 {
   auto* view = new EditableTableView(model);
   view->setObjectName(name);
-  view->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  view->horizontalHeader()->setMinimumSectionSize(view->fontMetrics().averageCharWidth() * 6);
-  for (const int column : stretched)
-  {
-    view->horizontalHeader()->setSectionResizeMode(column, QHeaderView::Stretch);
-  }
+  view->horizontalHeader()->setMinimumSectionSize(view->fontMetrics().averageCharWidth() * 3);
+  view->setElastic(elastic, 12);
   return view;
 }
 }
@@ -62,7 +58,6 @@ pqMaterialsTable::pqMaterialsTable(vtkSMProxy* smProxy, vtkSMPropertyGroup* grou
   , Summary(new QLabel)
   , Timer(new QTimer(this))
 {
-  this->setShowLabel(false);
   this->setChangeAvailableAsChangeFinished(true);
   auto* search = new QLineEdit;
   search->setObjectName("Search");
@@ -93,6 +88,7 @@ pqMaterialsTable::pqMaterialsTable(vtkSMProxy* smProxy, vtkSMPropertyGroup* grou
     tabs->setObjectName("Tabs");
     tabs->addTab(this->MaterialsView, "Materials");
     tabs->addTab(this->InterfacesView, "Interfaces");
+    this->setShowLabel(false); // the tabs say it
     layout->addWidget(tabs);
   }
   else
@@ -117,7 +113,8 @@ pqMaterialsTable::pqMaterialsTable(vtkSMProxy* smProxy, vtkSMPropertyGroup* grou
     {
       readOnly.insert(column);
       // Labels, names and colours tell what a row is; numbers that cannot be changed here would only be in the way.
-      this->MaterialsView->setColumnHidden(column, column >= MaterialsModel::RadiusColumn);
+      this->MaterialsView->setColumnHidden(
+        column, column == MaterialsModel::RadiusColumn || column == MaterialsModel::LengthColumn);
     }
   }
   this->Materials->setReadOnly(readOnly);
@@ -334,7 +331,8 @@ void pqMaterialsTable::updateSummary()
   QString text = QStringLiteral("%1 of %2 materials are meshed").arg(meshed).arg(all);
   if (this->InterfacesView)
   {
-    text += QStringLiteral(", %1 interfaces").arg(this->Interfaces->rowCount());
+    const int interfaces = this->Interfaces->rowCount();
+    text += QString(interfaces == 1 ? ", %1 interface" : ", %1 interfaces").arg(interfaces);
   }
   this->Summary->setText(text);
 }
