@@ -63,7 +63,8 @@ struct Table
     ASSERT_TRUE(editor);
     editor->setText(text);
     Press(editor, Qt::Key_Return);
-    QApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete); // the editor's end
+    QApplication::processEvents();                                   // the editor hands its text on later
+    QApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete); // and is gone later still
   }
 };
 
