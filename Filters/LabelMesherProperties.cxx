@@ -422,6 +422,21 @@ void vtkLabelMesher::ClearMaterialMaximumLengths()
   this->Stages->Sizing->ClearMaterialMaximumLengths();
 }
 
+void vtkLabelMesher::SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length)
+{
+  this->Stages->Sizing->SetInterfaceMaximumLength(labelA, labelB, length);
+}
+
+double vtkLabelMesher::GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const
+{
+  return this->Stages->Sizing->GetInterfaceMaximumLength(labelA, labelB);
+}
+
+void vtkLabelMesher::ClearInterfaceMaximumLengths()
+{
+  this->Stages->Sizing->ClearInterfaceMaximumLengths();
+}
+
 void vtkLabelMesher::SetTetrahedra(int mode)
 {
   this->Stages->Mesh->SetTetrahedra(mode);

@@ -165,6 +165,13 @@ public:
   ///@}
 
   ///@{
+  /// vtkSizingField: bounds of the edge length, world units, between two materials.
+  void SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length);
+  double GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const;
+  void ClearInterfaceMaximumLengths();
+  ///@}
+
+  ///@{
   /// vtkSizingField: about how many triangles to make (0: as the other properties say).
   void SetTargetTriangles(vtkIdType triangles);
   vtkIdType GetTargetTriangles() const;

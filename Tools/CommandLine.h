@@ -32,8 +32,9 @@ struct CommandLine
   long long Background = 0;
   long long MinimumComponent = 0; ///< voxels
   std::map<long long, MaterialOptions> Materials;
-  bool FlatBorder = false; ///< --border flat
-  bool Tightening = false; ///< --smoothing tighten
+  std::map<std::array<long long, 2>, double> InterfaceLengths; ///< --interface A,B:length=L; world units
+  bool FlatBorder = false;                                     ///< --border flat
+  bool Tightening = false;                                     ///< --smoothing tighten
   std::optional<double> Radius, Epsilon, MinimumLength, MaximumLength, MaximumDeviation, Gradation;
   std::optional<double> VolumeGradation, VolumeMaximumLength;
   long long Triangles = 0;
