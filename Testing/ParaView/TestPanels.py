@@ -81,6 +81,8 @@ def check_proxy(proxy, is_filter):
             continue
         if is_filter:
             check(prop.get("name") in groups, f"{where} is in no group")
+        # The application makes no widget for these.
+        check(prop.tag != "IdTypeVectorProperty" or prop.get("information_only"), f"{where} would not be in the panel")
         if is_number(prop):
             check_unit(where, prop, groups.get(prop.get("name")))
     return len(properties)
