@@ -102,6 +102,16 @@ double vtkLabelMesher::GetResamplingFactor() const
   return this->Stages->Split->GetResamplingFactor();
 }
 
+void vtkLabelMesher::SetMaximumUpsampling(int limit)
+{
+  this->Stages->Split->SetMaximumUpsampling(limit);
+}
+
+int vtkLabelMesher::GetMaximumUpsampling() const
+{
+  return this->Stages->Split->GetMaximumUpsampling();
+}
+
 void vtkLabelMesher::SetMinimumComponentSize(vtkIdType voxels)
 {
   this->Stages->Split->SetMinimumComponentSize(voxels);

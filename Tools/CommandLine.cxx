@@ -226,6 +226,16 @@ std::map<std::string, Action> Actions(CommandLine& line)
         line.MinimumComponent =
           static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0));
       } },
+    { "--upsample",
+      [&line](const std::string& option, const std::string& value)
+      {
+        const long long limit = ParseInteger(option, value);
+        if (limit < 1 || limit > 4)
+        {
+          Fail("--upsample is " + value + "; expected 1 to 4 samples per voxel along each axis, at most");
+        }
+        line.MaximumUpsampling = static_cast<int>(limit);
+      } },
     { "--triangles",
       [&line](const std::string& option, const std::string& value) {
         line.Triangles = static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 1));
@@ -295,7 +305,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
   }
   for (const char* option :
     { "--particles", "--tets", "--border", "--smoothing", "--radius", "--material", "--interface", "--epsilon",
-      "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component" })
+      "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component", "--upsample" })
   {
     if (line.Grid && given.count(option))
     {
@@ -385,6 +395,8 @@ Method:
   --method grid         marching cubes, smoothing, decimation: the baseline to compare with
 
 Particle method (radii in voxels, lengths in world units):
+  --upsample N          where labels are thin or small, up to N samples per voxel along each axis (1 to 4), as few as
+                        will do, within --memory-limit (default 1: none)
   --border closed       space around the volume is background: surfaces close there, rounded (default)
   --border flat         surfaces end exactly in the faces of the box of voxels, with its edges and corners
   --smoothing volume    all materials together, their volumes and thin parts stay (default)

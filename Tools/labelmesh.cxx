@@ -273,6 +273,7 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
   set(line.Gradation, &vtkLabelMesher::SetGradation);
   set(line.MemoryLimit, &vtkLabelMesher::SetMemoryLimit);
   mesher->SetMinimumComponentSize(line.MinimumComponent);
+  mesher->SetMaximumUpsampling(line.MaximumUpsampling);
   mesher->SetTargetTriangles(line.Triangles);
   if (!line.Tets.empty())
   {
