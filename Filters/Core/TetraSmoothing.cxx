@@ -234,7 +234,18 @@ double WorstQuality(const std::vector<OpenTetra>& faces, const Vec3& x)
   return worst;
 }
 
-double RaiseWorst(const std::vector<OpenTetra>& faces, Vec3& x)
+Vec3 MoveRegion::Nearest(const Vec3& x) const
+{
+  Vec3 way = x - this->Centre;
+  for (int a = 0; a < 3; ++a)
+  {
+    way[a] = this->Fixed[a] ? 0.0 : way[a];
+  }
+  const double length = way.norm();
+  return this->Centre + (length > this->Radius ? this->Radius / length : 1.0) * way;
+}
+
+double RaiseWorst(const std::vector<OpenTetra>& faces, Vec3& x, const MoveRegion* region)
 {
   double worst = WorstQuality(faces, x);
   for (int n = 0; n < Steps; ++n)
@@ -250,7 +261,8 @@ double RaiseWorst(const std::vector<OpenTetra>& faces, Vec3& x)
     double length = std::min(step, longest);
     for (int attempt = 0; attempt <= Halvings; ++attempt, length *= 0.5)
     {
-      const Vec3 moved = x + length * direction;
+      const Vec3 straight = x + length * direction;
+      const Vec3 moved = region ? region->Nearest(straight) : straight;
       const double now = WorstQuality(faces, moved);
       if (now > worst)
       {
