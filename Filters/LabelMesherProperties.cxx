@@ -352,6 +352,16 @@ bool vtkLabelMesher::GetChordCorrection() const
   return this->Stages->Mesh->GetChordCorrection();
 }
 
+void vtkLabelMesher::SetVolumeCorrection(bool on)
+{
+  this->Stages->Mesh->SetVolumeCorrection(on);
+}
+
+bool vtkLabelMesher::GetVolumeCorrection() const
+{
+  return this->Stages->Mesh->GetVolumeCorrection();
+}
+
 void vtkLabelMesher::SetMaterialOpeningRadius(vtkIdType label, double radius)
 {
   this->Stages->Split->SetMaterialOpeningRadius(label, radius);

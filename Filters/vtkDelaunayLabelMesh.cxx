@@ -62,6 +62,22 @@ TetraResult FillAndImprove(const std::vector<InnerPoint>& inside, MaterialId bac
   }
   return filled;
 }
+
+/// TightVolumes, with the background's left open; empty where the collection does not say.
+std::vector<double> WantedVolumes(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header)
+{
+  vtkDataArray* const tight = collection->GetFieldData()->GetArray(Names::TightVolumes);
+  if (!tight || std::size_t(tight->GetNumberOfTuples()) != header.Materials.size())
+  {
+    return {};
+  }
+  std::vector<double> wanted;
+  for (std::size_t m = 0; m < header.Materials.size(); ++m)
+  {
+    wanted.push_back(header.Materials[m].Label == header.Background ? 0.0 : tight->GetComponent(vtkIdType(m), 0));
+  }
+  return wanted;
+}
 }
 
 vtkDelaunayLabelMesh::vtkDelaunayLabelMesh()
@@ -121,6 +137,7 @@ int vtkDelaunayLabelMesh::RequestData(
         options.ImprovePasses = this->ImprovePasses;
         options.RepairBelow = this->RepairBelow;
         options.CorrectChords = this->ChordCorrection;
+        options.WantedVolumes = this->VolumeCorrection ? WantedVolumes(collection, header) : std::vector<double>();
         result = MeshInterfaces(
           indicators, std::move(sites), options, monitor.Part(0.05, this->Tetrahedra == Off ? 0.9 : 0.5));
       }
@@ -189,6 +206,7 @@ void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ImprovePasses: " << this->ImprovePasses << "\n";
   os << indent << "RepairBelow: " << this->RepairBelow << "\n";
   os << indent << "ChordCorrection: " << this->ChordCorrection << "\n";
+  os << indent << "VolumeCorrection: " << this->VolumeCorrection << "\n";
   os << indent << "Tetrahedra: " << this->Tetrahedra << "\n";
   os << indent << "RefinementRounds: " << this->RefinementRounds << "\n";
   os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";

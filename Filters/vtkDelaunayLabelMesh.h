@@ -38,7 +38,8 @@
  * local repair at faces whose materials are not in the sets of all their vertices, at edges and vertices where a
  * surface is not manifold and at slivers; then ImprovePasses passes of edge flips and of vertex smoothing by the
  * inverse mean ratio, each vertex within its own cell; then single edits at triangles that are still below RepairBelow.
- * Last, ChordCorrection moves vertices so that faces lie on the interfaces.
+ * Last, ChordCorrection moves vertices so that faces lie on the interfaces, and VolumeCorrection so that each material
+ * encloses its volume.
  * No step makes triangles cut each other. The same input gives the same bits for any number of threads.
  *
  * Errors: arrays that are missing, labels that the indicators do not have, a failed Delaunay tetrahedralisation.
@@ -83,6 +84,14 @@ public:
   vtkSetMacro(ChordCorrection, bool);
   vtkGetMacro(ChordCorrection, bool);
   vtkBooleanMacro(ChordCorrection, bool);
+  ///@}
+
+  ///@{
+  /// Whether the vertices move, by the least that does it, so that each material encloses its volume as the indicators'
+  /// field data TightVolumes (vtkTighten) says it: few faces around a small part miss some of it. Default on.
+  vtkSetMacro(VolumeCorrection, bool);
+  vtkGetMacro(VolumeCorrection, bool);
+  vtkBooleanMacro(VolumeCorrection, bool);
   ///@}
 
   ///@{
@@ -194,6 +203,7 @@ protected:
   int ImprovePasses = 3;
   double RepairBelow = 0.75;
   bool ChordCorrection = true;
+  bool VolumeCorrection = true;
   int Tetrahedra = Off;
   int RefinementRounds = 0;
   double RadiusEdgeRatio = 1.4;

@@ -180,7 +180,8 @@ public:
 
   ///@{
   /// vtkDelaunayLabelMesh: rounds of repair at most (8); passes of improvement (3); the radius ratio below which a
-  /// triangle is mended (0.75); whether faces, not vertices, lie on the interfaces (on).
+  /// triangle is mended (0.75); whether faces, not vertices, lie on the interfaces (on);
+  /// whether each material encloses its smoothed volume (on).
   void SetRepairRounds(int rounds);
   int GetRepairRounds() const;
   void SetImprovePasses(int passes);
@@ -189,6 +190,8 @@ public:
   double GetRepairBelow() const;
   void SetChordCorrection(bool on);
   bool GetChordCorrection() const;
+  void SetVolumeCorrection(bool on);
+  bool GetVolumeCorrection() const;
   ///@}
 
   ///@{
