@@ -513,6 +513,21 @@ int vtkLabelMesher::GetTetraImprovePasses() const
   return this->Stages->Mesh->GetTetraImprovePasses();
 }
 
+void vtkLabelMesher::SetSlideSurface(bool on)
+{
+  this->Stages->Mesh->SetSlideSurface(on);
+}
+
+bool vtkLabelMesher::GetSlideSurface() const
+{
+  return this->Stages->Mesh->GetSlideSurface();
+}
+
+const char* vtkLabelMesher::GetTetrahedraFailure() const
+{
+  return this->Stages->Mesh->GetTetrahedraFailure();
+}
+
 void vtkLabelMesher::SetVolumeGradation(double gradation)
 {
   this->Stages->Sample->SetVolumeGradation(gradation);

@@ -226,6 +226,11 @@ public:
   /// Passes of improvement over badly shaped tetrahedra (10).
   void SetTetraImprovePasses(int passes);
   int GetTetraImprovePasses() const;
+  /// Whether vertices of the interface move a little where tetrahedra are slivers without (on).
+  void SetSlideSurface(bool on);
+  bool GetSlideSurface() const;
+  /// After an update: why tetrahedra that were asked for are missing; empty where they are not.
+  const char* GetTetrahedraFailure() const;
   ///@}
 
   ///@{

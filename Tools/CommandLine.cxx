@@ -167,6 +167,15 @@ std::map<std::string, Action> Actions(CommandLine& line)
         line.TetImprovePasses =
           static_cast<int>(std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0), 1000.0));
       } },
+    { "--tet-slide",
+      [&line](const std::string&, const std::string& value)
+      {
+        if (value != "on" && value != "off")
+        {
+          Fail("--tet-slide is on or off, found '" + value + "'");
+        }
+        line.TetSlide = value == "on";
+      } },
     { "--volume-gradation", number(line.VolumeGradation, 0.01) },
     { "--volume-max-length", number(line.VolumeMaximumLength, 0.0) },
     { "--method",
@@ -296,7 +305,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
          "--report FILE.json");
   }
   for (const char* option :
-    { "--tet-method", "--tet-refine", "--tet-improve", "--volume-gradation", "--volume-max-length" })
+    { "--tet-method", "--tet-refine", "--tet-improve", "--tet-slide", "--volume-gradation", "--volume-max-length" })
   {
     if (line.Tets.empty() && given.count(option))
     {
@@ -416,6 +425,7 @@ Tetrahedra (with --tets):
   --tet-method tetgen   TetGen inserts inner points
   --tet-refine N        rounds of inserting points where packed slivers are (default 0)
   --tet-improve N       passes over badly shaped tetrahedra at most (default 10; 0: none)
+  --tet-slide on|off    whether vertices of the triangles move a little where slivers have no other cure (default on)
   --volume-gradation G  how fast edges grow inside (default 0.4)
   --volume-max-length L bound of the edge length inside (default: none)
 

@@ -28,6 +28,7 @@ struct CommandLine
   bool TetsByTetGen = false;                                     ///< --tet-method tetgen
   int TetRefinementRounds = 0;                                   ///< --tet-refine
   std::optional<int> TetImprovePasses;                           ///< --tet-improve
+  bool TetSlide = true;                                          ///< --tet-slide
   std::vector<long long> Labels;
   long long Background = 0;
   long long MinimumComponent = 0; ///< voxels
