@@ -190,6 +190,11 @@ LabelImage ReadLabelImage(vtkImageData* image, vtkDataArray* array, bool cellDat
   return result;
 }
 
+MaterialId IdOf(const LabelImage& image, Label label)
+{
+  return MaterialId(std::lower_bound(image.Labels.begin(), image.Labels.end(), label) - image.Labels.begin());
+}
+
 void MergeIntoBackground(LabelImage& image, const std::vector<Label>& kept, Label background)
 {
   std::set<Label> labels = { background };

@@ -20,6 +20,9 @@ struct LabelImage
   std::vector<MaterialId> Ids; ///< per sample, x fastest: positions in Labels
 };
 
+/// A label's id; that of the next larger label where it does not occur.
+MaterialId IdOf(const LabelImage& image, Label label);
+
 /// The samples of an image's cells: their centres.
 GridFrame FrameOfCells(const GridFrame& points);
 

@@ -3,6 +3,7 @@
 
 #include "FilterSupport.h"
 #include "LabelMeshNames.h"
+#include "RatioHistogram.h"
 #include "ReportFacts.h"
 #include "ReportTables.h"
 #include "ServerPieces.h"
@@ -47,7 +48,7 @@ void FillErrorMap(vtkPolyData* mesh, const std::vector<double>& distances, vtkPo
 vtkLabelMeshReport::vtkLabelMeshReport()
 {
   this->SetNumberOfInputPorts(6);
-  this->SetNumberOfOutputPorts(6);
+  this->SetNumberOfOutputPorts(7);
   this->SetInputArrayToProcess(
     0, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
 }
@@ -118,6 +119,7 @@ int vtkLabelMeshReport::RequestData(
         FillTetrahedra(vtkTable::GetData(outputVector, 4), report);
         FillDihedrals(vtkTable::GetData(outputVector, 5), report);
       }
+      FillRadiusRatios(vtkTable::GetData(outputVector, 6), facts.Mesh, vtkUnstructuredGrid::GetData(inputVector[5], 0));
       if (this->ErrorMap)
       {
         monitor.Step(0.9, "Measuring distances");
@@ -145,6 +147,11 @@ vtkTable* vtkLabelMeshReport::GetTetrahedraOutput()
 vtkTable* vtkLabelMeshReport::GetDihedralsOutput()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(5));
+}
+
+vtkTable* vtkLabelMeshReport::GetRadiusRatiosOutput()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(6));
 }
 
 void vtkLabelMeshReport::PrintSelf(ostream& os, vtkIndent indent)

@@ -2,10 +2,13 @@
 #include "vtkLabelMesher.h"
 
 #include "FilterSupport.h"
+#include "IndicatorCollection.h"
 #include "InnerFilter.h"
 #include "LabelMeshNames.h"
 #include "LabelMesherPipeline.h"
+#include "RebuiltVoxels.h"
 #include "ServerPieces.h"
+#include "WorkingImage.h"
 
 #include <vtkCellData.h>
 #include <vtkCommand.h>
@@ -188,13 +191,26 @@ int vtkLabelMesher::RequestData(
       vtkDataObject::GetData(outputVector, 3)->ShallowCopy(stages.Sample->GetOutputDataObject(1));
       vtkDataObject::GetData(outputVector, 4)->ShallowCopy(stages.Mesh->GetOutputDataObject(2));
       vtkFieldData* volumes = stages.Reconstruct->GetOutputDataObject(0)->GetFieldData();
-      for (const char* name : { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes, Names::DroppedLabels,
-             Names::DroppedInto, Names::DroppedVoxels, Names::DroppedPositions })
+      for (const char* name :
+        { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes, Names::DroppedLabels, Names::DroppedInto,
+          Names::DroppedVoxels, Names::DroppedPositions, Names::Upsampling, Names::UpsamplingReason })
       {
         if (vtkAbstractArray* array = volumes->GetAbstractArray(name))
         {
           surfaces->GetFieldData()->AddArray(array);
         }
+      }
+      if (stages.Reconstruct->GetLabelImage()->GetNumberOfPoints() > 0)
+      {
+        LabelImage volume = ReadLabelImage(input, labels, association == vtkDataObject::FIELD_ASSOCIATION_CELLS);
+        std::vector<Label> meshed;
+        for (const Material& material : ReadMaterials(volumes))
+        {
+          meshed.push_back(material.Label);
+        }
+        MergeIntoBackground(volume, meshed, this->GetBackgroundLabel());
+        WriteRebuiltVoxels(
+          surfaces->GetFieldData(), volume, stages.Reconstruct->GetLabelImage(), this->GetBackgroundLabel());
       }
     });
 }

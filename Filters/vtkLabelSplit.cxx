@@ -2,11 +2,11 @@
 #include "vtkLabelSplit.h"
 
 #include "Core/MaterialMasks.h"
-#include "Core/SmallComponents.h"
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelImage.h"
 #include "LabelMeshNames.h"
+#include "LabelPreparation.h"
 #include "MemoryEstimate.h"
 #include "ServerPieces.h"
 
@@ -131,64 +131,6 @@ LabelImage LabelsToSplit(vtkLabelSplit* filter, vtkImageData* input, vtkDataArra
   return image;
 }
 
-MaterialId IdOf(const LabelImage& image, Label label)
-{
-  return MaterialId(std::lower_bound(image.Labels.begin(), image.Labels.end(), label) - image.Labels.begin());
-}
-
-/// Gives small components away and names them in the field data. Labels that are gone are none of the image's any more.
-void DropSmall(LabelImage& image, Label background, Index least, vtkFieldData* fieldData)
-{
-  const Lattice samples = image.Frame.Samples();
-  const std::vector<DroppedComponent> dropped =
-    DropSmallComponents(samples.Dims, image.Ids, IdOf(image, background), int(image.Labels.size()), least);
-  vtkNew<vtkTypeInt64Array> labels, into, voxels;
-  vtkNew<vtkDoubleArray> positions;
-  labels->SetName(Names::DroppedLabels);
-  into->SetName(Names::DroppedInto);
-  voxels->SetName(Names::DroppedVoxels);
-  positions->SetName(Names::DroppedPositions);
-  positions->SetNumberOfComponents(3);
-  const std::array<int, 6>& extent = image.Frame.Extent();
-  for (const DroppedComponent& component : dropped)
-  {
-    labels->InsertNextValue(image.Labels[component.From]);
-    into->InsertNextValue(image.Labels[component.To]);
-    voxels->InsertNextValue(component.Voxels);
-    const std::array<int, 3> at = samples.Coordinates(component.First);
-    positions->InsertNextTuple(image.Frame.ToWorld(extent[0] + at[0], extent[2] + at[1], extent[4] + at[2]).data());
-  }
-  for (vtkDataArray* array : { static_cast<vtkDataArray*>(labels.Get()), static_cast<vtkDataArray*>(into.Get()),
-         static_cast<vtkDataArray*>(voxels.Get()), static_cast<vtkDataArray*>(positions.Get()) })
-  {
-    fieldData->AddArray(array);
-  }
-  std::vector<bool> occurs(image.Labels.size(), false);
-  for (const MaterialId id : image.Ids)
-  {
-    occurs[id] = true;
-  }
-  std::vector<Label> left;
-  std::copy_if(image.Labels.begin(), image.Labels.end(), std::back_inserter(left),
-    [&](Label label) { return occurs[IdOf(image, label)]; });
-  MergeIntoBackground(image, left, background);
-}
-
-void Resample(LabelImage& image, double factor)
-{
-  if (!(factor > 0))
-  {
-    throw std::invalid_argument(
-      "The resampling factor is " + std::to_string(factor) + "; expected more than 0 samples per voxel.");
-  }
-  if (factor != 1.0)
-  {
-    const GridFrame resampled = Resampled(image.Frame, factor);
-    image.Ids = ResampleLabels(image.Ids, image.Frame, resampled);
-    image.Frame = resampled;
-  }
-}
-
 /// The box of a material's block, relative to the first source sample. Where the material reaches the border it goes on
 /// for `layers` samples. It lies within the working grid.
 Box BlockBox(const Box& material, const Lattice& source, bool background, int padding, int layers)
@@ -217,6 +159,17 @@ int ContinuedLayers(vtkLabelSplit* filter, const Lattice& source)
   return int(std::ceil(voxels * source.VoxelSize() / source.Spacing.minCoeff()));
 }
 
+UpsamplingOptions UpsamplingOptionsOf(vtkLabelSplit* filter)
+{
+  UpsamplingOptions options;
+  options.Limit = filter->GetMaximumUpsampling();
+  options.Background = filter->GetBackgroundLabel();
+  options.FlatBorder = filter->GetBorder() == vtkLabelSplit::Flat;
+  options.Padding = filter->GetPadding();
+  options.MemoryLimit = filter->GetMemoryLimit();
+  return options;
+}
+
 GridFrame BlockFrame(const GridFrame& source, const Box& box)
 {
   std::array<int, 6> extent = box;
@@ -236,8 +189,7 @@ std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, b
   const int count = int(image.Labels.size());
   const int layers = ContinuedLayers(filter, source);
   const std::vector<Box> boxes = BoxesOf(image.Ids, source, count);
-  const auto background =
-    MaterialId(std::lower_bound(image.Labels.begin(), image.Labels.end(), header.Background) - image.Labels.begin());
+  const MaterialId background = IdOf(image, header.Background);
   std::vector<Label> lost;
   for (int id = 0; id < count; ++id)
   {
@@ -427,17 +379,44 @@ int vtkLabelSplit::RequestInformation(
   {
     try
     {
-      const GridFrame source = Resampled(frame, this->ResamplingFactor);
+      const double factor = this->Upsamples() ? this->FindUpsampling(inputVector) : this->ResamplingFactor;
+      const GridFrame source = Resampled(frame, factor);
       PublishFrame(outInfo, source, this->Padding + ContinuedLayers(this, source.Samples()));
       return 1;
     }
     catch (const std::invalid_argument&)
     {
-      // RequestData says what is wrong with the factor.
+      // RequestData says what is wrong with the factor or with the labels.
     }
   }
   UnpublishFrame(outInfo);
   return 1;
+}
+
+double vtkLabelSplit::FindUpsampling(vtkInformationVector** inputVector)
+{
+  int port = 0;
+  if (vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port))
+  {
+    producer->Update(port);
+  }
+  vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
+  const std::array<vtkMTimeType, 2> state{ input->GetMTime(), this->GetMTime() };
+  if (input->GetNumberOfPoints() > 0 && state != this->UpsamplingState)
+  {
+    int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+    vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
+    std::vector<Label> missing;
+    LabelImage image = LabelsToSplit(this, input, array, association, this->Labels, missing);
+    if (this->MinimumComponentSize > 0)
+    {
+      vtkNew<vtkFieldData> unused;
+      DropSmall(image, this->BackgroundLabel, this->MinimumComponentSize, unused);
+    }
+    this->UpsamplingFactor = ChooseUpsampling(image, UpsamplingOptionsOf(this)).Factor;
+    this->UpsamplingState = state;
+  }
+  return input->GetNumberOfPoints() > 0 ? this->UpsamplingFactor : 1;
 }
 
 int vtkLabelSplit::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
@@ -486,7 +465,20 @@ int vtkLabelSplit::RequestData(
         DropSmall(image, this->BackgroundLabel, this->MinimumComponentSize, output->GetFieldData());
       }
       monitor.Step(0.1, "Resampling");
-      Resample(image, this->ResamplingFactor);
+      if (this->Upsamples())
+      {
+        const Upsampling upsampling = ChooseUpsampling(image, UpsamplingOptionsOf(this));
+        WriteUpsampling(output->GetFieldData(), upsampling);
+        if (upsampling.HeldByMemory)
+        {
+          vtkWarningMacro("" << upsampling.Reason);
+        }
+        Resample(image, upsampling);
+      }
+      else
+      {
+        Resample(image, this->ResamplingFactor);
+      }
       header.Source = image.Frame;
       header.Padding = this->Padding + ContinuedLayers(this, image.Frame.Samples());
       const std::vector<Label> lost = AppendMasks(this, image, !first, header, output, monitor.Part(0.2, 1.0));
@@ -526,6 +518,7 @@ void vtkLabelSplit::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Padding: " << this->Padding << "\n";
   os << indent << "Border: " << (this->Border == Flat ? "Flat" : "Closed") << "\n";
   os << indent << "ResamplingFactor: " << this->ResamplingFactor << "\n";
+  os << indent << "MaximumUpsampling: " << this->MaximumUpsampling << "\n";
   os << indent << "MinimumComponentSize: " << this->MinimumComponentSize << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "OpeningRadius: " << this->OpeningRadius << "\n";

@@ -6,6 +6,7 @@
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
+#include "MaterialArrays.h"
 #include "ServerPieces.h"
 #include "WorkingImage.h"
 
@@ -86,6 +87,11 @@ Grid<float> SampleBound(vtkDataArray* array, const GridFrame& frame, const GridF
   return sampled;
 }
 
+std::array<vtkIdType, 2> Ascending(vtkIdType labelA, vtkIdType labelB)
+{
+  return { std::min(labelA, labelB), std::max(labelA, labelB) };
+}
+
 SizingOptions OptionsOf(vtkSizingField* filter, const CollectionHeader& header)
 {
   SizingOptions options;
@@ -149,6 +155,38 @@ void vtkSizingField::ClearMaterialMaximumLengths()
   }
 }
 
+void vtkSizingField::SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length)
+{
+  if (this->GetInterfaceMaximumLength(labelA, labelB) == length)
+  {
+    return;
+  }
+  if (length == 0)
+  {
+    this->InterfaceMaximumLengths.erase(Ascending(labelA, labelB));
+  }
+  else
+  {
+    this->InterfaceMaximumLengths[Ascending(labelA, labelB)] = length;
+  }
+  this->Modified();
+}
+
+double vtkSizingField::GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const
+{
+  const auto found = this->InterfaceMaximumLengths.find(Ascending(labelA, labelB));
+  return found == this->InterfaceMaximumLengths.end() ? 0.0 : found->second;
+}
+
+void vtkSizingField::ClearInterfaceMaximumLengths()
+{
+  if (!this->InterfaceMaximumLengths.empty())
+  {
+    this->InterfaceMaximumLengths.clear();
+    this->Modified();
+  }
+}
+
 int vtkSizingField::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkImageData");
@@ -199,7 +237,20 @@ int vtkSizingField::RequestData(
         Attach(output, SizingResult());
         return;
       }
-      const SizingOptions options = OptionsOf(this, header);
+      SizingOptions options = OptionsOf(this, header);
+      for (const auto& [labels, length] : this->InterfaceMaximumLengths)
+      {
+        // Materials ascend by label, and so do their ids.
+        const std::array<MaterialId, 2> ids = { FindMaterial(header.Materials, labels[0]),
+          FindMaterial(header.Materials, labels[1]) };
+        if (ids[0] == ids[1] || ids[0] == NoMaterial || ids[1] == NoMaterial)
+        {
+          vtkWarningMacro("SetInterfaceMaximumLength: there is no interface between the labels " << labels[0] << " and "
+                                                                                                 << labels[1] << ".");
+          continue;
+        }
+        options.InterfaceMaximumLength[ids] = length;
+      }
       const std::size_t unknown = this->MaterialMaximumLengths.size() -
         std::count_if(options.MaterialMaximumLength.begin(), options.MaterialMaximumLength.end(),
           [](double length) { return length != 0; });
@@ -243,6 +294,11 @@ void vtkSizingField::PrintSelf(ostream& os, vtkIndent indent)
   for (const auto& [label, length] : this->MaterialMaximumLengths)
   {
     os << " " << label << ": " << length;
+  }
+  os << "\n" << indent << "InterfaceMaximumLengths:";
+  for (const auto& [labels, length] : this->InterfaceMaximumLengths)
+  {
+    os << " " << labels[0] << ", " << labels[1] << ": " << length;
   }
   os << "\n" << indent << "TargetTriangles: " << this->TargetTriangles << "\n";
   os << indent << "PredictedParticles: " << this->PredictedParticles << "\n";
