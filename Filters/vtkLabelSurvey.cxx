@@ -6,7 +6,7 @@
 #include "IndicatorCollection.h"
 #include "LabelImage.h"
 #include "LabelMeshNames.h"
-#include "WorkingImage.h"
+#include "ServerPieces.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -104,11 +104,12 @@ int vtkLabelSurvey::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkLabelSurvey::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  RequestAll(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
-int vtkLabelSurvey::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelSurvey::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkTable* labels = vtkTable::GetData(outputVector, 0);
@@ -117,7 +118,7 @@ int vtkLabelSurvey::RequestData(vtkInformation*, vtkInformationVector** inputVec
     [&](const Monitor& monitor)
     {
       this->Trouble.clear();
-      if (input->GetNumberOfPoints() == 0)
+      if (input->GetNumberOfPoints() == 0 || !RequestedPiece(request, outputVector).IsFirst())
       {
         FillTables(LabelImage(), LabelSurvey(), labels, pairs);
         return;
