@@ -148,7 +148,7 @@ public:
   ///@}
 
   ///@{
-  /// vtkSizingField: edge length over feature size (0.7); the least feature size, voxels (0.8); how far edges may stay
+  /// vtkSizingField: edge length over feature size (0.65); the least feature size, voxels (0.8); how far edges may stay
   /// beside curved surfaces, voxels (0.2); growth of length (0.4).
   void SetEpsilon(double epsilon);
   double GetEpsilon() const;
