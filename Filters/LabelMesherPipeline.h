@@ -144,6 +144,9 @@ public:
   }
 
   LabelMesh::Feed Labels, Bound;
+  /// Holds names and colours, and never runs: they are given to the outputs in the end, so that a change of them runs no
+  /// stage.
+  vtkNew<vtkLabelSplit> Style;
   vtkNew<vtkLabelSplit> Split;
   vtkNew<vtkTighten> Tighten;
   vtkNew<vtkIndicatorReconstruct> Reconstruct;

@@ -5,6 +5,7 @@
 #include "InnerFilter.h"
 #include "LabelMeshNames.h"
 #include "LabelMesherPipeline.h"
+#include "MaterialStyle.h"
 #include "WorkingImage.h"
 
 #include <vtkCellData.h>
@@ -48,7 +49,7 @@ vtkLabelMesher::~vtkLabelMesher() = default;
 vtkMTimeType vtkLabelMesher::GetMTime()
 {
   // Properties live in the stages.
-  vtkMTimeType time = this->Superclass::GetMTime();
+  vtkMTimeType time = std::max(this->Superclass::GetMTime(), this->Stages->Style->GetMTime());
   for (const Pipeline::Stage& stage : this->Stages->All)
   {
     time = std::max(time, stage.Filter->GetMTime());
@@ -158,6 +159,18 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
         {
           surfaces->GetFieldData()->AddArray(array);
         }
+      }
+      for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+      {
+        StyleMaterials(vtkDataObject::GetData(outputVector, port),
+          [&stages](Label label)
+          {
+            Material material;
+            material.Label = label;
+            material.Name = stages.Style->GetMaterialName(label);
+            stages.Style->GetMaterialColor(label, material.Color.data());
+            return material;
+          });
       }
     });
 }
