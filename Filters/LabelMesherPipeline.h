@@ -4,7 +4,9 @@
 #define LabelMesherPipeline_h
 
 #include "FilterSupport.h"
+#include "IndicatorCollection.h"
 #include "InnerFilter.h"
+#include "ServerPieces.h"
 #include "vtkDelaunayLabelMesh.h"
 #include "vtkIndicatorReconstruct.h"
 #include "vtkLabelMesher.h"
@@ -117,8 +119,9 @@ public:
     }
   }
 
-  /// Brings one stage after the other up to date.
-  void Update(vtkAlgorithm* outer, const LabelMesh::Monitor& monitor)
+  /// Brings one stage after the other up to date. Pieces but the first are empty, stage by stage; the first one is the
+  /// same of any number, and the stages need not run again for another.
+  void Update(vtkAlgorithm* outer, const LabelMesh::Piece& piece, const LabelMesh::Monitor& monitor)
   {
     // The first stages run for the one that keeps its output.
     double done = 0.0, next = 0.0;
@@ -129,11 +132,21 @@ public:
       next += stage.Weight;
       if (!stage.Filter->GetReleaseDataFlag())
       {
-        LabelMesh::UpdateInner(chain, outer, monitor.Part(done, next));
+        LabelMesh::UpdateInner(chain, outer, piece.IsFirst() ? LabelMesh::Piece() : piece, monitor.Part(done, next));
         done = next;
         chain.clear();
       }
     }
+  }
+
+  /// The name and the colour of a label, as the user wants them.
+  LabelMesh::Material StyleOf(LabelMesh::Label label) const
+  {
+    LabelMesh::Material material;
+    material.Label = label;
+    material.Name = this->Style->GetMaterialName(label);
+    this->Style->GetMaterialColor(label, material.Color.data());
+    return material;
   }
 
   const Stage* Find(const char* name) const
@@ -144,8 +157,8 @@ public:
   }
 
   LabelMesh::Feed Labels, Bound;
-  /// Holds names and colours, and never runs: they are given to the outputs in the end, so that a change of them runs no
-  /// stage.
+  /// Holds names and colours, and never runs: they are given to the outputs in the end, so that a change of them runs
+  /// no stage.
   vtkNew<vtkLabelSplit> Style;
   vtkNew<vtkLabelSplit> Split;
   vtkNew<vtkTighten> Tighten;

@@ -102,6 +102,16 @@ double vtkLabelMesher::GetResamplingFactor() const
   return this->Stages->Split->GetResamplingFactor();
 }
 
+void vtkLabelMesher::SetMaximumUpsampling(int limit)
+{
+  this->Stages->Split->SetMaximumUpsampling(limit);
+}
+
+int vtkLabelMesher::GetMaximumUpsampling() const
+{
+  return this->Stages->Split->GetMaximumUpsampling();
+}
+
 void vtkLabelMesher::SetMinimumComponentSize(vtkIdType voxels)
 {
   this->Stages->Split->SetMinimumComponentSize(voxels);
@@ -352,6 +362,16 @@ bool vtkLabelMesher::GetChordCorrection() const
   return this->Stages->Mesh->GetChordCorrection();
 }
 
+void vtkLabelMesher::SetVolumeCorrection(bool on)
+{
+  this->Stages->Mesh->SetVolumeCorrection(on);
+}
+
+bool vtkLabelMesher::GetVolumeCorrection() const
+{
+  return this->Stages->Mesh->GetVolumeCorrection();
+}
+
 void vtkLabelMesher::SetMaterialOpeningRadius(vtkIdType label, double radius)
 {
   this->Stages->Split->SetMaterialOpeningRadius(label, radius);
@@ -491,6 +511,21 @@ void vtkLabelMesher::SetTetraImprovePasses(int passes)
 int vtkLabelMesher::GetTetraImprovePasses() const
 {
   return this->Stages->Mesh->GetTetraImprovePasses();
+}
+
+void vtkLabelMesher::SetSlideSurface(bool on)
+{
+  this->Stages->Mesh->SetSlideSurface(on);
+}
+
+bool vtkLabelMesher::GetSlideSurface() const
+{
+  return this->Stages->Mesh->GetSlideSurface();
+}
+
+const char* vtkLabelMesher::GetTetrahedraFailure() const
+{
+  return this->Stages->Mesh->GetTetrahedraFailure();
 }
 
 void vtkLabelMesher::SetVolumeGradation(double gradation)

@@ -6,7 +6,7 @@
 #include "IndicatorCollection.h"
 #include "LabelImage.h"
 #include "LabelMeshNames.h"
-#include "WorkingImage.h"
+#include "ServerPieces.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -102,14 +102,22 @@ int vtkLabelSurvey::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+int vtkLabelSurvey::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  PromiseFirstPiece(info);
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
 int vtkLabelSurvey::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  RequestAll(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
-int vtkLabelSurvey::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelSurvey::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  const bool first = RequestedPiece(request, outputVector).IsFirst();
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkTable* labels = vtkTable::GetData(outputVector, 0);
   vtkTable* pairs = vtkTable::GetData(outputVector, 1);
@@ -117,11 +125,12 @@ int vtkLabelSurvey::RequestData(vtkInformation*, vtkInformationVector** inputVec
     [&](const Monitor& monitor)
     {
       this->Trouble.clear();
-      if (input->GetNumberOfPoints() == 0)
+      if (input->GetNumberOfPoints() == 0 || !first)
       {
         FillTables(LabelImage(), LabelSurvey(), labels, pairs);
         return;
       }
+      RequireWhole(inputVector[0]->GetInformationObject(0), input);
       int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
       vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
       monitor.Step(0.0, "Reading labels");

@@ -7,6 +7,7 @@
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
 #include "MaterialArrays.h"
+#include "ServerPieces.h"
 #include "WorkingImage.h"
 
 #include <vtkDataArray.h>
@@ -193,6 +194,12 @@ int vtkSizingField::FillInputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
+int vtkSizingField::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  PromiseFirstPiece(info);
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
 int vtkSizingField::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -210,14 +217,12 @@ int vtkSizingField::RequestInformation(
 
 int vtkSizingField::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  if (inputVector[1]->GetNumberOfInformationObjects() > 0)
-  {
-    RequestWholeExtent(inputVector[1]->GetInformationObject(0));
-  }
+  RequestAllPromised(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 
-int vtkSizingField::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkSizingField::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkImageData* userImage = vtkImageData::GetData(inputVector[1], 0);
@@ -227,7 +232,7 @@ int vtkSizingField::RequestData(vtkInformation*, vtkInformationVector** inputVec
     {
       const CollectionHeader header = ReadHeader(input);
       this->PredictedParticles = 0;
-      if (header.Materials.empty())
+      if (header.Materials.empty() || !RequestedPiece(request, outputVector).IsFirst())
       {
         Attach(output, SizingResult());
         return;

@@ -167,6 +167,15 @@ std::map<std::string, Action> Actions(CommandLine& line)
         line.TetImprovePasses =
           static_cast<int>(std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0), 1000.0));
       } },
+    { "--tet-slide",
+      [&line](const std::string&, const std::string& value)
+      {
+        if (value != "on" && value != "off")
+        {
+          Fail("--tet-slide is on or off, found '" + value + "'");
+        }
+        line.TetSlide = value == "on";
+      } },
     { "--volume-gradation", number(line.VolumeGradation, 0.01) },
     { "--volume-max-length", number(line.VolumeMaximumLength, 0.0) },
     { "--method",
@@ -225,6 +234,16 @@ std::map<std::string, Action> Actions(CommandLine& line)
       {
         line.MinimumComponent =
           static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0));
+      } },
+    { "--upsample",
+      [&line](const std::string& option, const std::string& value)
+      {
+        const long long limit = ParseInteger(option, value);
+        if (limit < 1 || limit > 4)
+        {
+          Fail("--upsample is " + value + "; expected 1 to 4 samples per voxel along each axis, at most");
+        }
+        line.MaximumUpsampling = static_cast<int>(limit);
       } },
     { "--triangles",
       [&line](const std::string& option, const std::string& value) {
@@ -286,7 +305,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
          "--report FILE.json");
   }
   for (const char* option :
-    { "--tet-method", "--tet-refine", "--tet-improve", "--volume-gradation", "--volume-max-length" })
+    { "--tet-method", "--tet-refine", "--tet-improve", "--tet-slide", "--volume-gradation", "--volume-max-length" })
   {
     if (line.Tets.empty() && given.count(option))
     {
@@ -295,7 +314,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
   }
   for (const char* option :
     { "--particles", "--tets", "--border", "--smoothing", "--radius", "--material", "--interface", "--epsilon",
-      "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component" })
+      "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component", "--upsample" })
   {
     if (line.Grid && given.count(option))
     {
@@ -385,6 +404,8 @@ Method:
   --method grid         marching cubes, smoothing, decimation: the baseline to compare with
 
 Particle method (radii in voxels, lengths in world units):
+  --upsample N          where labels are thin or small, up to N samples per voxel along each axis (1 to 4), as few as
+                        will do, within --memory-limit (default 1: none)
   --border closed       space around the volume is background: surfaces close there, rounded (default)
   --border flat         surfaces end exactly in the faces of the box of voxels, with its edges and corners
   --smoothing volume    all materials together, their volumes and thin parts stay (default)
@@ -404,6 +425,7 @@ Tetrahedra (with --tets):
   --tet-method tetgen   TetGen inserts inner points
   --tet-refine N        rounds of inserting points where packed slivers are (default 0)
   --tet-improve N       passes over badly shaped tetrahedra at most (default 10; 0: none)
+  --tet-slide on|off    whether vertices of the triangles move a little where slivers have no other cure (default on)
   --volume-gradation G  how fast edges grow inside (default 0.4)
   --volume-max-length L bound of the edge length inside (default: none)
 

@@ -28,9 +28,11 @@ struct CommandLine
   bool TetsByTetGen = false;                                     ///< --tet-method tetgen
   int TetRefinementRounds = 0;                                   ///< --tet-refine
   std::optional<int> TetImprovePasses;                           ///< --tet-improve
+  bool TetSlide = true;                                          ///< --tet-slide
   std::vector<long long> Labels;
   long long Background = 0;
   long long MinimumComponent = 0; ///< voxels
+  int MaximumUpsampling = 1;      ///< samples per voxel along each axis
   std::map<long long, MaterialOptions> Materials;
   std::map<std::array<long long, 2>, double> InterfaceLengths; ///< --interface A,B:length=L; world units
   bool FlatBorder = false;                                     ///< --border flat
