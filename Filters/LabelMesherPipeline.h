@@ -4,6 +4,7 @@
 #define LabelMesherPipeline_h
 
 #include "FilterSupport.h"
+#include "IndicatorCollection.h"
 #include "InnerFilter.h"
 #include "ServerPieces.h"
 #include "vtkDelaunayLabelMesh.h"
@@ -138,6 +139,16 @@ public:
     }
   }
 
+  /// The name and the colour of a label, as the user wants them.
+  LabelMesh::Material StyleOf(LabelMesh::Label label) const
+  {
+    LabelMesh::Material material;
+    material.Label = label;
+    material.Name = this->Style->GetMaterialName(label);
+    this->Style->GetMaterialColor(label, material.Color.data());
+    return material;
+  }
+
   const Stage* Find(const char* name) const
   {
     const auto at = std::find_if(
@@ -146,6 +157,9 @@ public:
   }
 
   LabelMesh::Feed Labels, Bound;
+  /// Holds names and colours, and never runs: they are given to the outputs in the end, so that a change of them runs
+  /// no stage.
+  vtkNew<vtkLabelSplit> Style;
   vtkNew<vtkLabelSplit> Split;
   vtkNew<vtkTighten> Tighten;
   vtkNew<vtkIndicatorReconstruct> Reconstruct;

@@ -24,32 +24,32 @@ vtkIdType vtkLabelMesher::GetLabel(vtkIdType index) const
 
 void vtkLabelMesher::SetMaterialName(vtkIdType label, const char* name)
 {
-  this->Stages->Split->SetMaterialName(label, name);
+  this->Stages->Style->SetMaterialName(label, name);
 }
 
 void vtkLabelMesher::ClearMaterialNames()
 {
-  this->Stages->Split->ClearMaterialNames();
+  this->Stages->Style->ClearMaterialNames();
 }
 
 std::string vtkLabelMesher::GetMaterialName(vtkIdType label) const
 {
-  return this->Stages->Split->GetMaterialName(label);
+  return this->Stages->Style->GetMaterialName(label);
 }
 
 void vtkLabelMesher::SetMaterialColor(vtkIdType label, double red, double green, double blue)
 {
-  this->Stages->Split->SetMaterialColor(label, red, green, blue);
+  this->Stages->Style->SetMaterialColor(label, red, green, blue);
 }
 
 void vtkLabelMesher::ClearMaterialColors()
 {
-  this->Stages->Split->ClearMaterialColors();
+  this->Stages->Style->ClearMaterialColors();
 }
 
 void vtkLabelMesher::GetMaterialColor(vtkIdType label, double color[3]) const
 {
-  this->Stages->Split->GetMaterialColor(label, color);
+  this->Stages->Style->GetMaterialColor(label, color);
 }
 
 void vtkLabelMesher::SetBackgroundLabel(vtkIdType label)

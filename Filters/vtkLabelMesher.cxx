@@ -6,6 +6,7 @@
 #include "InnerFilter.h"
 #include "LabelMeshNames.h"
 #include "LabelMesherPipeline.h"
+#include "MaterialStyle.h"
 #include "RebuiltVoxels.h"
 #include "ServerPieces.h"
 #include "WorkingImage.h"
@@ -51,7 +52,7 @@ vtkLabelMesher::~vtkLabelMesher() = default;
 vtkMTimeType vtkLabelMesher::GetMTime()
 {
   // Properties live in the stages.
-  vtkMTimeType time = this->Superclass::GetMTime();
+  vtkMTimeType time = std::max(this->Superclass::GetMTime(), this->Stages->Style->GetMTime());
   for (const Pipeline::Stage& stage : this->Stages->All)
   {
     time = std::max(time, stage.Filter->GetMTime());
@@ -211,6 +212,11 @@ int vtkLabelMesher::RequestData(
         MergeIntoBackground(volume, meshed, this->GetBackgroundLabel());
         WriteRebuiltVoxels(
           surfaces->GetFieldData(), volume, stages.Reconstruct->GetLabelImage(), this->GetBackgroundLabel());
+      }
+      for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+      {
+        StyleMaterials(
+          vtkDataObject::GetData(outputVector, port), [&stages](Label label) { return stages.StyleOf(label); });
       }
     });
 }

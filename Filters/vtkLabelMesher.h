@@ -58,7 +58,8 @@ public:
   ///@}
 
   ///@{
-  /// vtkLabelSplit: names and colours (0 to 1) of materials.
+  /// vtkLabelSplit: names and colours (0 to 1) of materials. A change of them runs no stage again; warnings of the stages
+  /// use the default names.
   void SetMaterialName(vtkIdType label, const char* name);
   void ClearMaterialNames();
   std::string GetMaterialName(vtkIdType label) const;

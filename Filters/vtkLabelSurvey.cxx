@@ -102,6 +102,12 @@ int vtkLabelSurvey::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+int vtkLabelSurvey::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  PromiseFirstPiece(info);
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
 int vtkLabelSurvey::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
   RequestAll(inputVector[0]->GetInformationObject(0));
@@ -111,6 +117,7 @@ int vtkLabelSurvey::RequestUpdateExtent(vtkInformation*, vtkInformationVector** 
 int vtkLabelSurvey::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  const bool first = RequestedPiece(request, outputVector).IsFirst();
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkTable* labels = vtkTable::GetData(outputVector, 0);
   vtkTable* pairs = vtkTable::GetData(outputVector, 1);
@@ -118,11 +125,12 @@ int vtkLabelSurvey::RequestData(
     [&](const Monitor& monitor)
     {
       this->Trouble.clear();
-      if (input->GetNumberOfPoints() == 0 || !RequestedPiece(request, outputVector).IsFirst())
+      if (input->GetNumberOfPoints() == 0 || !first)
       {
         FillTables(LabelImage(), LabelSurvey(), labels, pairs);
         return;
       }
+      RequireWhole(inputVector[0]->GetInformationObject(0), input);
       int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
       vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
       monitor.Step(0.0, "Reading labels");

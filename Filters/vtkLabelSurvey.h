@@ -11,6 +11,7 @@
  *    (double x 3, 0 to 1: likewise)
  * Output port 1 (vtkTable), a row per pair of labels whose voxels share faces, ascending:
  *  - "LabelA", "LabelB" (int64, the smaller first), "VoxelFaces" (int64)
+ * On a server of several processes the first one has the tables, the others empty ones.
  * Space outside the volume belongs to the background, which so touches all labels at the border.
  *
  * One pass over the voxels, in parallel, and two bytes of memory for each. What it finds is small, whatever the volume:
@@ -74,6 +75,7 @@ protected:
   ~vtkLabelSurvey() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

@@ -81,8 +81,7 @@ LabelSurveyAnswer LabelSurveyQuery::ask(vtkSMProxy* owner, double time)
   }
   vtkSMPropertyHelper(survey, "Input").Set(input.GetAsProxy(), input.GetOutputPort());
   CopyShownArray(owner, survey);
-  vtkSMPropertyHelper(survey, "BackgroundLabel")
-    .Set(vtkSMUncheckedPropertyHelper(owner, "BackgroundLabel").GetAsIdType());
+  vtkSMPropertyHelper(survey, "BackgroundLabel").Set(vtkSMUncheckedPropertyHelper(owner, "BackgroundLabel").GetAsInt());
   vtkSMPropertyHelper(survey, "Quiet").Set(1);
   survey->UpdateVTKObjects();
   source->UpdatePipeline(time);

@@ -44,7 +44,7 @@ EditableTableView* MakeView(EditableTableModel* model, const char* name, const Q
   auto* view = new EditableTableView(model);
   view->setObjectName(name);
   view->horizontalHeader()->setMinimumSectionSize(view->fontMetrics().averageCharWidth() * 3);
-  view->setElastic(elastic, 12);
+  view->setElastic(elastic, 9);
   return view;
 }
 }

@@ -13,13 +13,16 @@
 #include "vtkTighten.h"
 
 #include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
+#include <vtkDataAssembly.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
+#include <vtkStringArray.h>
 
 #include <gtest/gtest.h>
 
@@ -253,6 +256,43 @@ TEST(LabelMesher, UserSizing)
   mesher->SetInputData(1, nullptr);
   mesher->Update();
   EXPECT_EQ(mesher->GetOutput()->GetNumberOfCells(), free);
+}
+
+TEST(LabelMesher, NamesAndColorsRunNoStage)
+{
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputDataObject(TwoSpheres(24));
+  mesher->Update();
+  const auto nameOf = [&](int block)
+  { return std::string(mesher->GetSurfaces()->GetMetaData(block)->Get(vtkCompositeDataSet::NAME())); };
+  const auto colorOf = [&](int block)
+  { return mesher->GetSurfaces()->GetPartition(block, 0)->GetFieldData()->GetArray(Names::Color)->GetTuple3(0)[2]; };
+  const double before = colorOf(0);
+  const std::string bytes = BytesOf(mesher->GetOutput());
+  mesher->SetMaterialName(1, "upper");
+  mesher->SetMaterialColor(1, 0.125, 0.25, 0.375);
+  mesher->Update();
+  EXPECT_EQ(nameOf(0), "upper");
+  EXPECT_EQ(nameOf(1), "Label_2");
+  EXPECT_EQ(colorOf(0), 0.375);
+  vtkDataAssembly* assembly = mesher->GetSurfaces()->GetDataAssembly();
+  EXPECT_EQ(assembly->GetDataSetIndices(assembly->FindFirstNodeWithName("upper")), std::vector<unsigned int>{ 0 });
+  for (int port : { 0, 1, 2, 3 })
+  {
+    vtkFieldData* fieldData = mesher->GetOutputDataObject(port)->GetFieldData();
+    EXPECT_EQ(vtkStringArray::SafeDownCast(fieldData->GetAbstractArray(Names::MaterialNames))->GetValue(1), "upper");
+    EXPECT_EQ(fieldData->GetArray(Names::MaterialColors)->GetComponent(1, 1), 0.25) << port;
+  }
+  for (int stage = 0; stage < mesher->GetNumberOfStages(); ++stage)
+  {
+    EXPECT_EQ(mesher->GetStageRuns(mesher->GetStageName(stage)), 1) << mesher->GetStageName(stage);
+  }
+  EXPECT_EQ(BytesOf(mesher->GetOutput()), bytes);
+  mesher->ClearMaterialNames();
+  mesher->ClearMaterialColors();
+  mesher->Update();
+  EXPECT_EQ(nameOf(0), "Label_1") << "what the stages keep has not been written to";
+  EXPECT_EQ(colorOf(0), before);
 }
 
 TEST(LabelMesher, ALengthPerInterface)
