@@ -36,7 +36,13 @@ inline constexpr char DroppedLabels[] = "DroppedLabels";       ///< int64 x M
 inline constexpr char DroppedInto[] = "DroppedInto";           ///< int64 x M: the labels that got their voxels
 inline constexpr char DroppedVoxels[] = "DroppedVoxels";       ///< int64 x M
 inline constexpr char DroppedPositions[] = "DroppedPositions"; ///< float64 x 3 x M, world: the first voxel of each
-inline constexpr char IndicatorsRoot[] = "Indicators";         ///< root of a collection's assembly
+// What was chosen where finer grids are allowed (MaximumUpsampling).
+inline constexpr char Upsampling[] = "Upsampling";             ///< int32: samples per voxel along each axis
+inline constexpr char UpsamplingReason[] = "UpsamplingReason"; ///< string: a sentence
+// Voxels whose label in the indicators is another than theirs, by vtkLabelMesher.
+inline constexpr char RebuiltVoxels[] = "RebuiltVoxels"; ///< int64 x K: positions in the label volume, x fastest
+inline constexpr char RebuiltLabels[] = "RebuiltLabels"; ///< int64 x K: the labels that they have there
+inline constexpr char IndicatorsRoot[] = "Indicators";   ///< root of a collection's assembly
 inline constexpr char SurfacesRoot[] = "Surfaces";
 inline constexpr char CatmullRom[] = "CatmullRom";
 

@@ -102,6 +102,16 @@ double vtkLabelMesher::GetResamplingFactor() const
   return this->Stages->Split->GetResamplingFactor();
 }
 
+void vtkLabelMesher::SetMaximumUpsampling(int limit)
+{
+  this->Stages->Split->SetMaximumUpsampling(limit);
+}
+
+int vtkLabelMesher::GetMaximumUpsampling() const
+{
+  return this->Stages->Split->GetMaximumUpsampling();
+}
+
 void vtkLabelMesher::SetMinimumComponentSize(vtkIdType voxels)
 {
   this->Stages->Split->SetMinimumComponentSize(voxels);
@@ -352,6 +362,16 @@ bool vtkLabelMesher::GetChordCorrection() const
   return this->Stages->Mesh->GetChordCorrection();
 }
 
+void vtkLabelMesher::SetVolumeCorrection(bool on)
+{
+  this->Stages->Mesh->SetVolumeCorrection(on);
+}
+
+bool vtkLabelMesher::GetVolumeCorrection() const
+{
+  return this->Stages->Mesh->GetVolumeCorrection();
+}
+
 void vtkLabelMesher::SetMaterialOpeningRadius(vtkIdType label, double radius)
 {
   this->Stages->Split->SetMaterialOpeningRadius(label, radius);
@@ -410,6 +430,21 @@ double vtkLabelMesher::GetMaterialMaximumLength(vtkIdType label) const
 void vtkLabelMesher::ClearMaterialMaximumLengths()
 {
   this->Stages->Sizing->ClearMaterialMaximumLengths();
+}
+
+void vtkLabelMesher::SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length)
+{
+  this->Stages->Sizing->SetInterfaceMaximumLength(labelA, labelB, length);
+}
+
+double vtkLabelMesher::GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const
+{
+  return this->Stages->Sizing->GetInterfaceMaximumLength(labelA, labelB);
+}
+
+void vtkLabelMesher::ClearInterfaceMaximumLengths()
+{
+  this->Stages->Sizing->ClearInterfaceMaximumLengths();
 }
 
 void vtkLabelMesher::SetTetrahedra(int mode)
@@ -476,6 +511,21 @@ void vtkLabelMesher::SetTetraImprovePasses(int passes)
 int vtkLabelMesher::GetTetraImprovePasses() const
 {
   return this->Stages->Mesh->GetTetraImprovePasses();
+}
+
+void vtkLabelMesher::SetSlideSurface(bool on)
+{
+  this->Stages->Mesh->SetSlideSurface(on);
+}
+
+bool vtkLabelMesher::GetSlideSurface() const
+{
+  return this->Stages->Mesh->GetSlideSurface();
+}
+
+const char* vtkLabelMesher::GetTetrahedraFailure() const
+{
+  return this->Stages->Mesh->GetTetrahedraFailure();
 }
 
 void vtkLabelMesher::SetVolumeGradation(double gradation)

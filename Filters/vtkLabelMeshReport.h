@@ -18,7 +18,8 @@
  *
  * What tells at which stage something was lost, all optional:
  * Input port 2 (any data object): its field data Labels, MaskVolumes and TightVolumes, as vtkTighten and
- * vtkIndicatorReconstruct write them.
+ * vtkIndicatorReconstruct write them; with port 1 of vtkLabelMesher also RebuiltVoxels and RebuiltLabels, which stand
+ * in for input 3.
  * Input port 3 (vtkImageData): point array "Label", rebuilt from the indicators: port 1 of vtkIndicatorReconstruct.
  * Input port 4 (vtkPolyData): the particles, with Materials and NumberOfMaterials.
  *
