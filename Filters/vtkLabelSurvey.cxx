@@ -6,7 +6,7 @@
 #include "IndicatorCollection.h"
 #include "LabelImage.h"
 #include "LabelMeshNames.h"
-#include "WorkingImage.h"
+#include "ServerPieces.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -104,7 +104,7 @@ int vtkLabelSurvey::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkLabelSurvey::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  RequestAll(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 

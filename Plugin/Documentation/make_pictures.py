@@ -31,7 +31,9 @@ def save(name, view):
 
 def surfaces(name, collection, array, value):
     view = new_view()
-    shown = Show(Contour(Input=collection, ContourBy=["POINTS", array], Isosurfaces=[value]), view)
+    # Without the background, whose surface is the others' once more.
+    materials = simple.ExtractBlock(Input=collection, Selectors=["/Root/Label_1", "/Root/Label_2"])
+    shown = Show(Contour(Input=materials, ContourBy=["POINTS", array], Isosurfaces=[value]), view)
     ColorBy(shown, ("FIELD", "vtkBlockColors"))
     shown.SetScalarBarVisibility(view, False)
     labelmesh_views.look(view)
@@ -40,6 +42,7 @@ def surfaces(name, collection, array, value):
 
 def slice_of(name, image, array, preset):
     view = new_view()
+    view.OrientationAxesVisibility = 0
     plane = Slice(Input=image)
     plane.SliceType.Normal = [0, 1, 0]
     plane.UpdatePipeline()
@@ -65,13 +68,15 @@ def mesh(name, port):
 
 mesher = labelmesh_views.open_volume(sys.argv[1], Epsilon=1.2, MaximumDeviation=0.6, Tetrahedra="Packed")
 volume = mesher.Input
-split = simple.LabelSplit(Input=volume)
+LABELS = ["POINTS", "MetaImage"]  # pvpython would take the default from the active source
+split = simple.LabelSplit(Input=volume, LabelArray=LABELS)
 tighten = simple.Tighten(Input=split)
 indicators = simple.IndicatorReconstruct(Input=tighten)
+indicators.UpdatePipeline()  # for the bounds, when it is sliced
 sizing = simple.SizingField(Input=indicators, Epsilon=1.2, MaximumDeviation=0.6)
 particles = simple.ParticleSampleCells(Input=indicators, Sizing=sizing)
 stages = simple.DelaunayLabelMesh(Input=particles, Indicators=indicators)
-grid = simple.GridLabelMesh(Input=volume, TargetTriangles=6000)
+grid = simple.GridLabelMesh(Input=volume, LabelArray=LABELS, TargetTriangles=3000)
 
 slice_of("LabelSurvey", volume, "MetaImage", "Viridis (matplotlib)")
 surfaces("LabelSplit", split, "Mask", 0.5)
@@ -87,7 +92,7 @@ save("LabelMesher", view)
 
 view = new_view()
 points = Show(OutputPort(particles, 0), view)
-points.Representation, points.PointSize, points.RenderPointsAsSpheres = "Points", 5.0, 1
+points.Representation, points.PointSize = "Points", 4.0
 ColorBy(points, ("POINTS", "TargetLength"))
 labelmesh_views.look(view)
 save("ParticleSampleCells", view)
