@@ -27,8 +27,10 @@ def spaced(name):
 def files_of(path):
     """Name to contents: Qt's help is a data base of compressed files, each after its length in four bytes."""
     connection = sqlite3.connect(path)
-    query = "SELECT FileNameTable.Name, FileDataTable.Data FROM FileNameTable JOIN FileDataTable ON FileDataTable.Id = FileNameTable.FileId"
-    return {os.path.basename(name): zlib.decompress(data[4:]) for name, data in connection.execute(query)}
+    query = ("SELECT FileNameTable.Name, FileDataTable.Data FROM FileNameTable "
+             "JOIN FileDataTable ON FileDataTable.Id = FileNameTable.FileId")
+    return {os.path.basename(name): zlib.decompress(data[4:]) if data else b""
+            for name, data in connection.execute(query)}
 
 
 pages = files_of(help_file)
