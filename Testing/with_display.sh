@@ -6,7 +6,9 @@
 set -u
 numbers=$(mktemp -d) || exit 1
 mkfifo "$numbers/display"
-Xvfb -displayfd 3 -screen 0 "${LABELMESH_SCREEN:-1280x1024x24}" -nolisten tcp 3>"$numbers/display" >"$numbers/log" 2>&1 &
+# -noreset: when its last client leaves, the server would start anew and refuse who comes meanwhile; ParaView opens a first
+# window only to ask what the server can do.
+Xvfb -displayfd 3 -screen 0 "${LABELMESH_SCREEN:-1280x1024x24}" -nolisten tcp -noreset 3>"$numbers/display" >"$numbers/log" 2>&1 &
 server=$!
 trap 'kill "$server" 2>/dev/null; wait "$server" 2>/dev/null; rm -rf "$numbers"' EXIT
 

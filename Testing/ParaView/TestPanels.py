@@ -77,12 +77,12 @@ def check_proxy(proxy, is_filter):
         check(prop.get("label") or " " not in re.sub(r"(?<=[a-z])(?=[A-Z])", " ", prop.get("name")),
               f"{where} has no label")
         check_decorators(where, prop, names)
-        if prop.tag == "InputProperty" or prop.get("panel_visibility") == "never":
+        if prop.tag == "InputProperty" or prop.get("panel_visibility") == "never" or prop.get("information_only"):
             continue
         if is_filter:
             check(prop.get("name") in groups, f"{where} is in no group")
         # The application makes no widget for these.
-        check(prop.tag != "IdTypeVectorProperty" or prop.get("information_only"), f"{where} would not be in the panel")
+        check(prop.tag != "IdTypeVectorProperty", f"{where} would not be in the panel")
         if is_number(prop):
             check_unit(where, prop, groups.get(prop.get("name")))
     return len(properties)
