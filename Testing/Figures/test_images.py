@@ -34,6 +34,10 @@ def check_texts(output, name):
     assert len(tools) == 7, tools
     particles = tools[1].split(",")
     assert particles[0] == "particles (LabelMesh)" and particles[-7:-2] == ["0"] * 5, particles
+    caption = (output / name / "tools.md").read_text()
+    for line in tools[1:]:  # a tool that is not here is named, with the reason
+        title = line.split(",")[0]
+        assert ",-,-," not in line or f"Not made: {title} (" in caption, line
 
 
 def main(reproduce, accept):
