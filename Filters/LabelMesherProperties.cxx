@@ -102,6 +102,16 @@ double vtkLabelMesher::GetResamplingFactor() const
   return this->Stages->Split->GetResamplingFactor();
 }
 
+void vtkLabelMesher::SetMaximumUpsampling(int limit)
+{
+  this->Stages->Split->SetMaximumUpsampling(limit);
+}
+
+int vtkLabelMesher::GetMaximumUpsampling() const
+{
+  return this->Stages->Split->GetMaximumUpsampling();
+}
+
 void vtkLabelMesher::SetMinimumComponentSize(vtkIdType voxels)
 {
   this->Stages->Split->SetMinimumComponentSize(voxels);
@@ -422,6 +432,21 @@ void vtkLabelMesher::ClearMaterialMaximumLengths()
   this->Stages->Sizing->ClearMaterialMaximumLengths();
 }
 
+void vtkLabelMesher::SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length)
+{
+  this->Stages->Sizing->SetInterfaceMaximumLength(labelA, labelB, length);
+}
+
+double vtkLabelMesher::GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const
+{
+  return this->Stages->Sizing->GetInterfaceMaximumLength(labelA, labelB);
+}
+
+void vtkLabelMesher::ClearInterfaceMaximumLengths()
+{
+  this->Stages->Sizing->ClearInterfaceMaximumLengths();
+}
+
 void vtkLabelMesher::SetTetrahedra(int mode)
 {
   this->Stages->Mesh->SetTetrahedra(mode);
@@ -486,6 +511,21 @@ void vtkLabelMesher::SetTetraImprovePasses(int passes)
 int vtkLabelMesher::GetTetraImprovePasses() const
 {
   return this->Stages->Mesh->GetTetraImprovePasses();
+}
+
+void vtkLabelMesher::SetSlideSurface(bool on)
+{
+  this->Stages->Mesh->SetSlideSurface(on);
+}
+
+bool vtkLabelMesher::GetSlideSurface() const
+{
+  return this->Stages->Mesh->GetSlideSurface();
+}
+
+const char* vtkLabelMesher::GetTetrahedraFailure() const
+{
+  return this->Stages->Mesh->GetTetrahedraFailure();
 }
 
 void vtkLabelMesher::SetVolumeGradation(double gradation)

@@ -4,7 +4,7 @@
 #define LabelMesh_Core_TetraImprovement_h
 
 #include "Monitor.h"
-#include "TetraMesh.h"
+#include "TetraSliding.h"
 
 namespace LabelMesh
 {
@@ -14,18 +14,21 @@ struct TetraImproveOptions
   int Passes = 10;             ///< over the tetrahedra below WantedQuality, at most
   double WantedQuality = 0.4;  ///< TetraQuality below which a tetrahedron is worked on
   double InsertionBelow = 0.3; ///< TetraQuality below which, where all else fails, a vertex may be added
+  SlideOptions Slide;          ///< Slide.Rounds = 0: no vertex of the interface moves
 };
 
 struct TetraImproveResult
 {
   Index Moves = 0, Edges = 0, Faces = 0, Contractions = 0, Insertions = 0;
-  int Passes = 0; ///< until nothing helped any more
+  Index Slides = 0; ///< moves of vertices of the interface
+  int Passes = 0;   ///< until nothing helped any more
 };
 
-/// Improves the tetrahedra inside each material. The interface's triangles, their vertices and what material is where
-/// stay as they are, to the bit. Vertices inside are first smoothed all together. Then, from the worst tetrahedron on,
-/// their vertices are moved, edges and faces are flipped, vertices taken out and put in, each where the worst quality
-/// of the tetrahedra that it touches rises. The same bits for any number of threads.
+/// Improves the tetrahedra inside each material. What material is where stays as it is, and so do the interface's
+/// triangles. Vertices inside are first smoothed all together. Then, from the worst tetrahedron on, their vertices are
+/// moved, edges and faces are flipped, vertices taken out and put in, each where the worst quality of the tetrahedra
+/// that it touches rises. Where tetrahedra are badly shaped all the same, vertices of the interface move a little
+/// (TetraSliding); all others stay where they are, to the bit. The same bits for any number of threads.
 /// Throws Aborted when the monitor asks to stop.
 TetraImproveResult ImproveTetrahedra(TetraMesh& mesh, const TetraImproveOptions& options, const Monitor& monitor);
 }
