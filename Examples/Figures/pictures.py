@@ -16,7 +16,7 @@ def for_screen(path, width=WIDTH):
     if picture.width > width:
         picture = picture.resize((width, round(picture.height * width / picture.width)), Image.LANCZOS)
     frequent = picture.quantize(255).getpalette()[:3 * 255]
-    frequent = [255 if value >= 252 else value for value in frequent]  # paper is white
+    frequent = [255 if value >= 248 else value for value in frequent]  # paper is white
     colours = Image.new("P", (1, 1))
     colours.putpalette(frequent + list(ImageColor.getrgb(FRAME_COLOUR)))
     output = io.BytesIO()
