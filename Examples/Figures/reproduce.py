@@ -61,10 +61,9 @@ def heading(figure):
 def wanted_figures(subject, options):
     if options.table and not options.figure:
         return []
-    every = [*subject.figures, *EXTRA]
     if options.figure:
-        return [figure for figure in every if str(figure) in options.figure]
-    return every
+        return [figure for figure in [*range(1, 10), *EXTRA] if str(figure) in options.figure]
+    return [*subject.figures, *EXTRA]
 
 
 def make_figure(figure, subject, runs, folder, dpi, options):
