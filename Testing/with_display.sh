@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs a command on an X display of its own: with_display.sh COMMAND [ARGUMENT...]
 # The server chooses a free display number itself (-displayfd), so any number of these can run at once, which xvfb-run
-# does not survive. The exit code is the command's.
+# does not survive. -noreset: a server that starts over when a window closes refuses the next one meanwhile. The exit code
+# is the command's.
 set -u
 numbers=$(mktemp -d) || exit 1
 mkfifo "$numbers/display"

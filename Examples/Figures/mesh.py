@@ -7,11 +7,10 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkIOImage import vtkMetaImageReader, vtkNIFTIImageReader
+from vtkmodules.vtkIOImage import vtkMetaImageReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
 
-IMAGE_READERS = {".mha": vtkMetaImageReader, ".mhd": vtkMetaImageReader, ".nii": vtkNIFTIImageReader,
-                 ".gz": vtkNIFTIImageReader, ".vti": vtkXMLImageDataReader}
+IMAGE_READERS = {".mha": vtkMetaImageReader, ".mhd": vtkMetaImageReader, ".vti": vtkXMLImageDataReader}
 
 
 @dataclass
@@ -78,14 +77,26 @@ def read(reader, path):
     return reader.GetOutput()
 
 
+def is_turned(path):
+    """Whether a MetaImage has other axes than the world's, which VTK's reader does not say."""
+    header = Path(path).read_bytes()[:4096].split(b"ElementDataFile")[0].decode("latin-1")
+    for line in header.splitlines():
+        key, _, value = line.partition("=")
+        if key.strip() in ("TransformMatrix", "Rotation", "Orientation"):
+            return not np.array_equal(np.array(value.split(), float), np.eye(3).ravel())
+    return False
+
+
 def read_volume(path):
+    """ValueError says why a volume cannot be compared."""
     path = Path(path)
     if path.suffix not in IMAGE_READERS:
-        raise ValueError(f"{path} is none of {', '.join(IMAGE_READERS)}")
+        raise ValueError(f"its name has none of the endings {', '.join(IMAGE_READERS)}")
     image = read(IMAGE_READERS[path.suffix](), path)
-    data = image.GetPointData() if image.GetPointData().GetScalars() else image.GetCellData()
-    if data.GetScalars() is None:
-        raise ValueError(f"{path} holds no labels that can be read")
+    if image.GetPointData().GetScalars() is None:
+        raise ValueError("it holds no labels at its points that can be read")
+    if not image.GetDirectionMatrix().IsIdentity() or (path.suffix != ".vti" and is_turned(path)):
+        raise ValueError("its axes are not the world's, which the counts of overlaps and gaps take for granted")
     return volume_of(image)
 
 

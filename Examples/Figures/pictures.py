@@ -11,13 +11,14 @@ FRAME_COLOUR = "#c03028"   # around what a close-up shows
 
 
 def for_screen(path, width=WIDTH):
-    """A PNG of at most that width, in 256 colours. White and frames keep theirs, which may not be among the frequent ones."""
+    """A PNG of at most that width, in 256 colours. Frames keep theirs, which are too rare to be chosen."""
     picture = Image.open(path).convert("RGB")
     if picture.width > width:
         picture = picture.resize((width, round(picture.height * width / picture.width)), Image.LANCZOS)
-    frequent = picture.quantize(254).getpalette()[:3 * 254]
+    frequent = picture.quantize(255).getpalette()[:3 * 255]
+    frequent = [255 if value >= 248 else value for value in frequent]  # paper is white
     colours = Image.new("P", (1, 1))
-    colours.putpalette(frequent + list(ImageColor.getrgb(FRAME_COLOUR)) + [255] * 3)
+    colours.putpalette(frequent + list(ImageColor.getrgb(FRAME_COLOUR)))
     output = io.BytesIO()
     picture.quantize(palette=colours, dither=Image.Dither.NONE).save(output, "PNG", optimize=True)
     return output.getvalue()

@@ -41,7 +41,7 @@ def histograms(subject, runs, dpi, methods=()):
         panels[2].legend(loc="upper right")
         panels[2].set_xlim(0, 180)
         panels[2].set_xticks(range(0, 181, 30))
-    figure.subplots_adjust(left=0.06, right=0.99, top=0.97, bottom=0.19, wspace=0.16)
+    figure.subplots_adjust(left=0.06, right=0.98, top=0.97, bottom=0.19, wspace=0.16)
     inside = f", and dihedral angles of its tetrahedra ({', '.join(methods)})" if methods else ""
     caption = f"Shape of the triangles of the {subject.title} by tool, at about as many triangles{inside}."
     return figure, caption

@@ -37,7 +37,7 @@ def parse(arguments):
     parser = argparse.ArgumentParser(prog="reproduce", description=__doc__.split("\n\n")[0],
                                      epilog="\n\n".join(__doc__.split("\n\n")[1:]),
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("volumes", nargs="+", type=Path, metavar="VOLUME", help=".mha, .mhd, .nii, .nii.gz or .vti")
+    parser.add_argument("volumes", nargs="+", type=Path, metavar="VOLUME", help=".mha, .mhd or .vti")
     parser.add_argument("-o", "--output", type=Path, default=Path("comparison"), help="folder to write in (comparison)")
     parser.add_argument("--size", choices=["print", "small"], default="print", help=f"{PRINT} or {SMALL} dots per inch")
     parser.add_argument("--table", type=int, choices=[1, 2, 3], action="append", default=[])
@@ -61,10 +61,9 @@ def heading(figure):
 def wanted_figures(subject, options):
     if options.table and not options.figure:
         return []
-    every = [*subject.figures, *EXTRA]
     if options.figure:
-        return [figure for figure in every if str(figure) in options.figure]
-    return every
+        return [figure for figure in [*range(1, 10), *EXTRA] if str(figure) in options.figure]
+    return [*subject.figures, *EXTRA]
 
 
 def make_figure(figure, subject, runs, folder, dpi, options):
@@ -131,7 +130,12 @@ def main(arguments):
         say(f"{name}")
         subject, folder = subject_of(name), options.output / name
         folder.mkdir(exist_ok=True)
-        runs = Runs(options.labelmesh, path.resolve(), read_volume(path), folder / "meshes", options)
+        try:
+            runs = Runs(options.labelmesh, path.resolve(), read_volume(path), folder / "meshes", options)
+            runs.get("particle")
+        except (ValueError, RuntimeError) as error:
+            say(f"  left out: {error}")
+            continue
         made = figures_of(subject, runs, folder, dpi, options)
         results[name] = (subject, runs, made)
         all_runs.append((subject, runs))

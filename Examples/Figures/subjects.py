@@ -44,7 +44,7 @@ FROG = Subject("frog", {1: "tissue", 2: "bone", 3: "guts", 4: "brain"},
                section_aspect=1.3)
 BRAIN = Subject("brain", {1: "CSF", 2: "grey matter", 3: "white matter"},
                 {1: "#6ba3d6", 2: "#c9a59b", 3: "#efe3c2"}, view=(0.8, 0.5, 0.4),
-                closeups=(((0.0, 0.1), 0.2),), figures=(5, 8, 9), apart=(3, 1), shown=(3,), aspect=1.1)
+                closeups=(((0.0, 0.1), 0.2),), figures=(5, 8), apart=(3, 1), shown=(3,), aspect=1.1)
 TORSO = Subject("torso", {1: "tissue", 2: "bone", 3: "solid organs", 4: "hollow organs", 5: "lung"},
                 {1: "#e3bfa0", 2: "#efe3c2", 3: "#b5615a", 4: "#d9a05b", 5: "#6ba3d6"},
                 view=(0.25, -1.0, 0.2), shown=(2, 3, 4, 5), veiled=(1,),

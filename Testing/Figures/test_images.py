@@ -34,6 +34,10 @@ def check_texts(output, name):
     assert len(tools) == 7, tools
     particles = tools[1].split(",")
     assert particles[0] == "particles (LabelMesh)" and particles[-7:-2] == ["0"] * 5, particles
+    caption = (output / name / "tools.md").read_text()
+    for line in tools[1:]:  # a tool that is not here is named, with the reason
+        title = line.split(",")[0]
+        assert ",-,-," not in line or f"Not made: {title} (" in caption, line
 
 
 def main(reproduce, accept):
@@ -41,11 +45,13 @@ def main(reproduce, accept):
     shutil.rmtree(output, ignore_errors=True)
     volumes = [str(Path(os.environ["LABELMESH_VOLUMES"]) / f"{name}.mha") for name in VOLUMES]
     missing = str(output / "nowhere.mha")
-    result = subprocess.run([reproduce, *volumes, missing, "-o", str(output), "--size", "small", "--no-cgal"],
+    turned = str(Path(os.environ["LABELMESH_VOLUMES"]) / "two_spheres_mirrored.mha")
+    result = subprocess.run([reproduce, *volumes, turned, missing, "-o", str(output), "--size", "small", "--no-cgal"],
                             capture_output=True, text=True)
     print(result.stdout, result.stderr)
     assert result.returncode == 0, "reproduce failed"
     assert f"{missing} is not there: left out." in result.stdout
+    assert "two_spheres_mirrored\n  left out: its axes are not the world's" in result.stdout
     wrong = []
     for name in VOLUMES:
         made = {path.stem: path for path in (output / name).glob("*.png")}
