@@ -36,7 +36,13 @@ inline constexpr char DroppedLabels[] = "DroppedLabels";       ///< int64 x M
 inline constexpr char DroppedInto[] = "DroppedInto";           ///< int64 x M: the labels that got their voxels
 inline constexpr char DroppedVoxels[] = "DroppedVoxels";       ///< int64 x M
 inline constexpr char DroppedPositions[] = "DroppedPositions"; ///< float64 x 3 x M, world: the first voxel of each
-inline constexpr char IndicatorsRoot[] = "Indicators";         ///< root of a collection's assembly
+// What was chosen where finer grids are allowed (MaximumUpsampling).
+inline constexpr char Upsampling[] = "Upsampling";             ///< int32: samples per voxel along each axis
+inline constexpr char UpsamplingReason[] = "UpsamplingReason"; ///< string: a sentence
+// Voxels whose label in the indicators is another than theirs, by vtkLabelMesher.
+inline constexpr char RebuiltVoxels[] = "RebuiltVoxels"; ///< int64 x K: positions in the label volume, x fastest
+inline constexpr char RebuiltLabels[] = "RebuiltLabels"; ///< int64 x K: the labels that they have there
+inline constexpr char IndicatorsRoot[] = "Indicators";   ///< root of a collection's assembly
 inline constexpr char SurfacesRoot[] = "Surfaces";
 inline constexpr char CatmullRom[] = "CatmullRom";
 
@@ -57,6 +63,8 @@ inline constexpr char Normal[] = "Normal";           ///< float64 x 3 (particles
 inline constexpr char BoundaryLabels[] =
   "BoundaryLabels"; ///< cells, int64 x 2: normal points from the first to the second
 inline constexpr char DistanceToVoxels[] = "DistanceToVoxels"; ///< points, float64, world length (error map)
+// ParaView's charts take this column for the x axis by themselves, since its own Histogram writes it.
+inline constexpr char BinExtents[] = "bin_extents";  ///< column, float64: centres of a histogram's bins
 inline constexpr char RadiusRatio[] = "RadiusRatio"; ///< cells, float64: 2 r_in / r_circ; of tetrahedra 3 r_in / r_circ
 }
 

@@ -5,6 +5,7 @@
 
 #include "FilterSupport.h"
 #include "InnerFilter.h"
+#include "ServerPieces.h"
 #include "vtkDelaunayLabelMesh.h"
 #include "vtkIndicatorReconstruct.h"
 #include "vtkLabelMesher.h"
@@ -117,8 +118,9 @@ public:
     }
   }
 
-  /// Brings one stage after the other up to date.
-  void Update(vtkAlgorithm* outer, const LabelMesh::Monitor& monitor)
+  /// Brings one stage after the other up to date. Pieces but the first are empty, stage by stage; the first one is the
+  /// same of any number, and the stages need not run again for another.
+  void Update(vtkAlgorithm* outer, const LabelMesh::Piece& piece, const LabelMesh::Monitor& monitor)
   {
     // The first stages run for the one that keeps its output.
     double done = 0.0, next = 0.0;
@@ -129,7 +131,7 @@ public:
       next += stage.Weight;
       if (!stage.Filter->GetReleaseDataFlag())
       {
-        LabelMesh::UpdateInner(chain, outer, monitor.Part(done, next));
+        LabelMesh::UpdateInner(chain, outer, piece.IsFirst() ? LabelMesh::Piece() : piece, monitor.Part(done, next));
         done = next;
         chain.clear();
       }

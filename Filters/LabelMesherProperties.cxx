@@ -102,6 +102,16 @@ double vtkLabelMesher::GetResamplingFactor() const
   return this->Stages->Split->GetResamplingFactor();
 }
 
+void vtkLabelMesher::SetMaximumUpsampling(int limit)
+{
+  this->Stages->Split->SetMaximumUpsampling(limit);
+}
+
+int vtkLabelMesher::GetMaximumUpsampling() const
+{
+  return this->Stages->Split->GetMaximumUpsampling();
+}
+
 void vtkLabelMesher::SetMinimumComponentSize(vtkIdType voxels)
 {
   this->Stages->Split->SetMinimumComponentSize(voxels);
@@ -420,6 +430,21 @@ double vtkLabelMesher::GetMaterialMaximumLength(vtkIdType label) const
 void vtkLabelMesher::ClearMaterialMaximumLengths()
 {
   this->Stages->Sizing->ClearMaterialMaximumLengths();
+}
+
+void vtkLabelMesher::SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length)
+{
+  this->Stages->Sizing->SetInterfaceMaximumLength(labelA, labelB, length);
+}
+
+double vtkLabelMesher::GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const
+{
+  return this->Stages->Sizing->GetInterfaceMaximumLength(labelA, labelB);
+}
+
+void vtkLabelMesher::ClearInterfaceMaximumLengths()
+{
+  this->Stages->Sizing->ClearInterfaceMaximumLengths();
 }
 
 void vtkLabelMesher::SetTetrahedra(int mode)

@@ -495,6 +495,26 @@ InterfaceData ReadInterface(vtkPolyData* mesh)
   return data;
 }
 
+void StartMaterials(vtkPartitionedDataSetCollection* output)
+{
+  output->Initialize();
+  vtkNew<vtkDataAssembly> assembly;
+  assembly->Initialize();
+  assembly->SetRootNodeName(Names::SurfacesRoot);
+  output->SetDataAssembly(assembly);
+}
+
+void AppendMaterial(const Material& material, vtkDataSet* piece, vtkPartitionedDataSetCollection* output)
+{
+  AddMaterialFields(material, piece->GetFieldData());
+  const unsigned int block = output->GetNumberOfPartitionedDataSets();
+  output->SetPartition(block, 0, piece);
+  output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), material.Name.c_str());
+  vtkDataAssembly* assembly = output->GetDataAssembly();
+  const int node = assembly->AddNode(vtkDataAssembly::MakeValidNodeName(material.Name.c_str()).c_str());
+  assembly->AddDataSetIndex(node, block);
+}
+
 void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output)
 {
   const InterfaceData interface = ReadInterface(interfaceMesh);
@@ -508,11 +528,7 @@ void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollec
       triangles[pair[1]].push_back(Index(t));
     }
   }
-  output->Initialize();
-  vtkNew<vtkDataAssembly> assembly;
-  assembly->Initialize();
-  assembly->SetRootNodeName(Names::SurfacesRoot);
-  unsigned int block = 0;
+  StartMaterials(output);
   std::vector<Index> numbers(interface.Points.size(), -1);
   for (std::size_t m = 0; m < interface.Materials.size(); ++m)
   {
@@ -522,14 +538,8 @@ void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollec
       continue;
     }
     const auto surface = SurfaceOf(MaterialId(m), triangles[m], interface, interfaceMesh, numbers);
-    AddMaterialFields(material, surface->GetFieldData());
-    output->SetPartition(block, 0, surface);
-    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), material.Name.c_str());
-    const int node = assembly->AddNode(vtkDataAssembly::MakeValidNodeName(material.Name.c_str()).c_str());
-    assembly->AddDataSetIndex(node, block);
-    ++block;
+    AppendMaterial(material, surface, output);
   }
-  output->SetDataAssembly(assembly);
   WriteMaterials(output->GetFieldData(), interface.Materials, interface.Background);
 }
 }

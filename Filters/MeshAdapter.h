@@ -11,6 +11,7 @@
 
 #include <vector>
 
+class vtkDataSet;
 class vtkPartitionedDataSetCollection;
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -42,6 +43,11 @@ void TetrahedraToGrid(const TetraMesh& mesh, const CollectionHeader& header, vtk
 /// material without triangles has an empty block. Point and cell arrays are kept; BoundaryLabels is (own label, the
 /// other side's), so that here too the normal points from the first to the second. Throws as ReadInterface does.
 void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output);
+
+/// Makes an empty collection of meshes, a block per material, and appends to it: with the material's name, field data
+/// Label and Color, and a node of the assembly.
+void StartMaterials(vtkPartitionedDataSetCollection* output);
+void AppendMaterial(const Material& material, vtkDataSet* piece, vtkPartitionedDataSetCollection* output);
 
 /// An interface mesh in Core's terms, in world coordinates.
 struct InterfaceData

@@ -5,6 +5,7 @@
 #include "Core/Parallel.h"
 #include "LabelImage.h"
 #include "LabelMeshNames.h"
+#include "RebuiltVoxels.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -199,43 +200,22 @@ void ApplyDropped(const std::vector<Loss>& dropped, const std::array<int, 3>& di
   }
 }
 
-/// What an image of labels, on any grid of the same space, says at the voxels of another.
-std::vector<MaterialId> Resampled(
-  vtkImageData* image, const GridFrame& frame, const std::vector<Material>& materials, MaterialId background)
+/// What the indicators say of the voxels; empty when nothing was given that tells.
+std::vector<MaterialId> TightIdsOf(
+  const ReportInputs& inputs, const LabelImage& image, const std::vector<Material>& materials, MaterialId background)
 {
-  vtkDataArray* array = image->GetPointData()->GetArray(Names::Label);
-  if (!array)
+  std::vector<Label> labels;
+  if (inputs.Tightened && inputs.Tightened->GetNumberOfPoints() > 0)
   {
-    throw std::invalid_argument(std::string("The rebuilt labels have no point array '") + Names::Label +
-      "'. Connect port 1 of Indicator Reconstruct.");
+    labels = RebuiltLabelsAt(inputs.Tightened, image.Frame, materials[background].Label);
   }
-  const LabelImage labels = ReadLabelImage(image, array, false);
-  std::vector<MaterialId> ids = IdsOf(materials, labels.Labels);
+  else if (inputs.Stages)
+  {
+    labels = ReadRebuiltVoxels(inputs.Stages->GetFieldData(), image);
+  }
+  std::vector<MaterialId> ids = IdsOf(materials, labels);
   std::replace(ids.begin(), ids.end(), NoMaterial, background);
-  const Lattice source = labels.Frame.Samples(), target = frame.Samples();
-  const std::array<int, 6>&extent = labels.Frame.Extent(), &own = frame.Extent();
-  std::vector<MaterialId> result(static_cast<std::size_t>(target.Size()), background);
-  ParallelFor(0, Index(target.Dims[1]) * target.Dims[2], 0,
-    [&](Index first, Index last)
-    {
-      for (Index row = first; row < last; ++row)
-      {
-        const int y = own[2] + int(row % target.Dims[1]), z = own[4] + int(row / target.Dims[1]);
-        for (int x = 0; x < target.Dims[0]; ++x)
-        {
-          const Vec3 index = labels.Frame.ToIndex(frame.ToWorld(own[0] + x, y, z));
-          std::array<Index, 3> at{};
-          bool inside = true;
-          for (int a = 0; a < 3; ++a)
-          {
-            at[a] = Index(std::lround(index[a])) - extent[2 * a];
-            inside = inside && at[a] >= 0 && at[a] < source.Dims[a];
-          }
-          result[row * target.Dims[0] + x] = inside ? ids[labels.Ids[source.At(at[0], at[1], at[2])]] : background;
-        }
-      }
-    });
-  return result;
+  return ids;
 }
 
 std::vector<Vec3> IndicesOf(const GridFrame& frame, const std::vector<Vec3>& points)
@@ -321,10 +301,7 @@ void FindVolumeFacts(const ReportInputs& inputs, const LabelImage& image, Report
   {
     ledger.Pairs.insert(pair.Materials);
   }
-  if (inputs.Tightened && inputs.Tightened->GetNumberOfPoints() > 0)
-  {
-    ledger.TightIds = Resampled(inputs.Tightened, volume.Frame, materials, facts.Background);
-  }
+  ledger.TightIds = TightIdsOf(inputs, image, materials, facts.Background);
   if (inputs.Particles)
   {
     ledger.Particles = ReadParticles(inputs.Particles, volume.Frame, materials);

@@ -8,6 +8,7 @@
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
 #include "MeshAdapter.h"
+#include "ServerPieces.h"
 
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
@@ -106,11 +107,19 @@ int vtkDelaunayLabelMesh::FillOutputPortInformation(int port, vtkInformation* in
 {
   const char* const types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkUnstructuredGrid" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
+  PromiseFirstPiece(info);
+  return 1;
+}
+
+int vtkDelaunayLabelMesh::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  RequestAllPromised(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 
 int vtkDelaunayLabelMesh::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPolyData* particles = vtkPolyData::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputVector[1], 0);
@@ -124,7 +133,7 @@ int vtkDelaunayLabelMesh::RequestData(
       std::vector<InnerPoint> inside;
       MaterialId background = NoMaterial;
       TetraImproveOptions improve;
-      if (particles->GetNumberOfPoints() > 0)
+      if (particles->GetNumberOfPoints() > 0 && RequestedPiece(request, outputVector).IsFirst())
       {
         monitor.Step(0.0, "Reading the particles");
         std::vector<Particle> sites = ParticlesFromPolyData(particles, header);

@@ -2,9 +2,12 @@
 #include "vtkLabelMesher.h"
 
 #include "FilterSupport.h"
+#include "IndicatorCollection.h"
 #include "InnerFilter.h"
 #include "LabelMeshNames.h"
 #include "LabelMesherPipeline.h"
+#include "RebuiltVoxels.h"
+#include "ServerPieces.h"
 #include "WorkingImage.h"
 
 #include <vtkCellData.h>
@@ -115,6 +118,7 @@ int vtkLabelMesher::FillOutputPortInformation(int port, vtkInformation* info)
   const char* const types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkPolyData",
     "vtkUnstructuredGrid" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
+  LabelMesh::PromiseFirstPiece(info);
   return 1;
 }
 
@@ -124,13 +128,14 @@ int vtkLabelMesher::RequestUpdateExtent(vtkInformation*, vtkInformationVector** 
   {
     if (inputVector[port]->GetNumberOfInformationObjects() > 0)
     {
-      LabelMesh::RequestWholeExtent(inputVector[port]->GetInformationObject(0));
+      LabelMesh::RequestAll(inputVector[port]->GetInformationObject(0));
     }
   }
   return 1;
 }
 
-int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelMesher::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using namespace LabelMesh;
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
@@ -138,12 +143,13 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
   return RunStage(this,
     [&](const Monitor& monitor)
     {
+      RequireWhole(inputVector[0]->GetInformationObject(0), input);
       int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
       vtkDataArray* labels = this->GetInputArrayToProcess(0, inputVector, association);
       Pipeline& stages = *this->Stages;
       stages.Labels.Set(input, labels, association == vtkDataObject::FIELD_ASSOCIATION_CELLS);
       stages.SetBound(bound, bound ? this->GetInputArrayToProcess(1, inputVector) : nullptr);
-      stages.Update(this, monitor);
+      stages.Update(this, RequestedPiece(request, outputVector), monitor);
       vtkDataObject::GetData(outputVector, 0)->ShallowCopy(stages.Mesh->GetOutputDataObject(0));
       vtkDataObject* surfaces = vtkDataObject::GetData(outputVector, 1);
       surfaces->ShallowCopy(stages.Mesh->GetOutputDataObject(1));
@@ -151,13 +157,26 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
       vtkDataObject::GetData(outputVector, 3)->ShallowCopy(stages.Sample->GetOutputDataObject(1));
       vtkDataObject::GetData(outputVector, 4)->ShallowCopy(stages.Mesh->GetOutputDataObject(2));
       vtkFieldData* volumes = stages.Reconstruct->GetOutputDataObject(0)->GetFieldData();
-      for (const char* name : { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes, Names::DroppedLabels,
-             Names::DroppedInto, Names::DroppedVoxels, Names::DroppedPositions })
+      for (const char* name :
+        { Names::MaskVolumes, Names::TightVolumes, Names::KeptVolumes, Names::DroppedLabels, Names::DroppedInto,
+          Names::DroppedVoxels, Names::DroppedPositions, Names::Upsampling, Names::UpsamplingReason })
       {
         if (vtkAbstractArray* array = volumes->GetAbstractArray(name))
         {
           surfaces->GetFieldData()->AddArray(array);
         }
+      }
+      if (stages.Reconstruct->GetLabelImage()->GetNumberOfPoints() > 0)
+      {
+        LabelImage volume = ReadLabelImage(input, labels, association == vtkDataObject::FIELD_ASSOCIATION_CELLS);
+        std::vector<Label> meshed;
+        for (const Material& material : ReadMaterials(volumes))
+        {
+          meshed.push_back(material.Label);
+        }
+        MergeIntoBackground(volume, meshed, this->GetBackgroundLabel());
+        WriteRebuiltVoxels(
+          surfaces->GetFieldData(), volume, stages.Reconstruct->GetLabelImage(), this->GetBackgroundLabel());
       }
     });
 }

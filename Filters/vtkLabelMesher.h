@@ -16,7 +16,8 @@
  * Output port 0 (vtkPolyData): the interface triangles, each once; see vtkDelaunayLabelMesh for its arrays.
  * Output port 1 (vtkPartitionedDataSetCollection): a closed surface per material; see vtkDelaunayLabelMesh. Field data
  * MaskVolumes, TightVolumes, KeptVolumes (float64, in the order of Labels) as vtkTighten's, and DroppedLabels and so on
- * as vtkLabelSplit's, for vtkLabelMeshReport.
+ * and Upsampling as vtkLabelSplit's; RebuiltVoxels, RebuiltLabels (int64): the voxels whose label in the indicators is
+ * another than theirs, by their position in the volume, x fastest, and that label. All for vtkLabelMeshReport.
  * Output port 2 (vtkPolyData): the particles, before repair; see vtkParticleSampleCells.
  * Output port 3 (vtkPolyData): the curves where three materials meet; see vtkParticleSampleCells.
  * Output port 4 (vtkUnstructuredGrid): with Tetrahedra the tetrahedra that fill the materials; see
@@ -72,6 +73,12 @@ public:
   int GetPadding() const;
   void SetResamplingFactor(double factor);
   double GetResamplingFactor() const;
+  ///@}
+
+  ///@{
+  /// vtkLabelSplit: samples per voxel along each axis, at most, that thin and small parts may ask for (1: none do).
+  void SetMaximumUpsampling(int limit);
+  int GetMaximumUpsampling() const;
   ///@}
 
   ///@{
@@ -162,6 +169,13 @@ public:
   void SetMaterialMaximumLength(vtkIdType label, double length);
   double GetMaterialMaximumLength(vtkIdType label) const;
   void ClearMaterialMaximumLengths();
+  ///@}
+
+  ///@{
+  /// vtkSizingField: bounds of the edge length, world units, between two materials.
+  void SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length);
+  double GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const;
+  void ClearInterfaceMaximumLengths();
   ///@}
 
   ///@{

@@ -2,13 +2,13 @@
 #include "vtkLabelSplit.h"
 
 #include "Core/MaterialMasks.h"
-#include "Core/SmallComponents.h"
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelImage.h"
 #include "LabelMeshNames.h"
+#include "LabelPreparation.h"
 #include "MemoryEstimate.h"
-#include "WorkingImage.h"
+#include "ServerPieces.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellData.h>
@@ -24,7 +24,6 @@
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -108,64 +107,6 @@ double RadiusIn(const Lattice& lattice, const char* what, double voxels)
   return voxels * lattice.VoxelSize();
 }
 
-/// The sample lattice that an image will have, from what is known before there is data. False when nothing is.
-bool PromisedFrame(vtkInformation* inInfo, bool cellData, GridFrame& frame)
-{
-  if (!inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    return false;
-  }
-  std::array<int, 6> extent;
-  std::copy_n(inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6, extent.begin());
-  Vec3 origin = Vec3::Zero(), spacing = Vec3::Ones();
-  Mat3 direction = Mat3::Identity();
-  if (inInfo->Has(vtkDataObject::ORIGIN()))
-  {
-    origin = Eigen::Map<const Vec3>(inInfo->Get(vtkDataObject::ORIGIN()));
-  }
-  if (inInfo->Has(vtkDataObject::SPACING()))
-  {
-    spacing = Eigen::Map<const Vec3>(inInfo->Get(vtkDataObject::SPACING()));
-  }
-  if (inInfo->Has(vtkDataObject::DIRECTION()))
-  {
-    direction = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(inInfo->Get(vtkDataObject::DIRECTION()));
-  }
-  try
-  {
-    frame = GridFrame(extent, origin, spacing, direction);
-    frame = cellData ? FrameOfCells(frame) : frame;
-  }
-  catch (const std::invalid_argument&)
-  {
-    return false; // an empty image, or one that RequestData will refuse
-  }
-  return true;
-}
-
-/// Whether the array to process is cell data, as far as can be told before there is data.
-bool PromisesCellData(vtkInformation* arrayInfo, vtkInformation* inInfo)
-{
-  const int association = arrayInfo->Get(vtkDataObject::FIELD_ASSOCIATION());
-  const char* name = arrayInfo->Get(vtkDataObject::FIELD_NAME());
-  // Images announce point scalars also when they have none, so the data tell, where there are any.
-  vtkImageData* image = vtkImageData::SafeDownCast(inInfo->Get(vtkDataObject::DATA_OBJECT()));
-  const bool hasData = image && image->GetNumberOfPoints() > 0;
-  const auto present = [&](int where) -> bool
-  {
-    if (hasData)
-    {
-      vtkDataSetAttributes* attributes = image->GetAttributes(where);
-      return name ? attributes->HasArray(name) != 0 : attributes->GetScalars() != nullptr;
-    }
-    return name ? vtkDataObject::GetNamedFieldInformation(inInfo, where, name) != nullptr
-                : vtkDataObject::GetActiveFieldInformation(inInfo, where, vtkDataSetAttributes::SCALARS) != nullptr;
-  };
-  return association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
-    (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS &&
-      !present(vtkDataObject::FIELD_ASSOCIATION_POINTS) && present(vtkDataObject::FIELD_ASSOCIATION_CELLS));
-}
-
 /// The array to process as labels, those that were not asked for merged into the background. `missing`: what was asked
 /// for and does not occur.
 LabelImage LabelsToSplit(vtkLabelSplit* filter, vtkImageData* input, vtkDataArray* array, int association,
@@ -188,64 +129,6 @@ LabelImage LabelsToSplit(vtkLabelSplit* filter, vtkImageData* input, vtkDataArra
     asked.empty() ? std::vector<Label>(image.Labels) : std::vector<Label>(wanted.begin(), wanted.end());
   MergeIntoBackground(image, kept, filter->GetBackgroundLabel());
   return image;
-}
-
-MaterialId IdOf(const LabelImage& image, Label label)
-{
-  return MaterialId(std::lower_bound(image.Labels.begin(), image.Labels.end(), label) - image.Labels.begin());
-}
-
-/// Gives small components away and names them in the field data. Labels that are gone are none of the image's any more.
-void DropSmall(LabelImage& image, Label background, Index least, vtkFieldData* fieldData)
-{
-  const Lattice samples = image.Frame.Samples();
-  const std::vector<DroppedComponent> dropped =
-    DropSmallComponents(samples.Dims, image.Ids, IdOf(image, background), int(image.Labels.size()), least);
-  vtkNew<vtkTypeInt64Array> labels, into, voxels;
-  vtkNew<vtkDoubleArray> positions;
-  labels->SetName(Names::DroppedLabels);
-  into->SetName(Names::DroppedInto);
-  voxels->SetName(Names::DroppedVoxels);
-  positions->SetName(Names::DroppedPositions);
-  positions->SetNumberOfComponents(3);
-  const std::array<int, 6>& extent = image.Frame.Extent();
-  for (const DroppedComponent& component : dropped)
-  {
-    labels->InsertNextValue(image.Labels[component.From]);
-    into->InsertNextValue(image.Labels[component.To]);
-    voxels->InsertNextValue(component.Voxels);
-    const std::array<int, 3> at = samples.Coordinates(component.First);
-    positions->InsertNextTuple(image.Frame.ToWorld(extent[0] + at[0], extent[2] + at[1], extent[4] + at[2]).data());
-  }
-  for (vtkDataArray* array : { static_cast<vtkDataArray*>(labels.Get()), static_cast<vtkDataArray*>(into.Get()),
-         static_cast<vtkDataArray*>(voxels.Get()), static_cast<vtkDataArray*>(positions.Get()) })
-  {
-    fieldData->AddArray(array);
-  }
-  std::vector<bool> occurs(image.Labels.size(), false);
-  for (const MaterialId id : image.Ids)
-  {
-    occurs[id] = true;
-  }
-  std::vector<Label> left;
-  std::copy_if(image.Labels.begin(), image.Labels.end(), std::back_inserter(left),
-    [&](Label label) { return occurs[IdOf(image, label)]; });
-  MergeIntoBackground(image, left, background);
-}
-
-void Resample(LabelImage& image, double factor)
-{
-  if (!(factor > 0))
-  {
-    throw std::invalid_argument(
-      "The resampling factor is " + std::to_string(factor) + "; expected more than 0 samples per voxel.");
-  }
-  if (factor != 1.0)
-  {
-    const GridFrame resampled = Resampled(image.Frame, factor);
-    image.Ids = ResampleLabels(image.Ids, image.Frame, resampled);
-    image.Frame = resampled;
-  }
 }
 
 /// The box of a material's block, relative to the first source sample. Where the material reaches the border it goes on
@@ -276,6 +159,17 @@ int ContinuedLayers(vtkLabelSplit* filter, const Lattice& source)
   return int(std::ceil(voxels * source.VoxelSize() / source.Spacing.minCoeff()));
 }
 
+UpsamplingOptions UpsamplingOptionsOf(vtkLabelSplit* filter)
+{
+  UpsamplingOptions options;
+  options.Limit = filter->GetMaximumUpsampling();
+  options.Background = filter->GetBackgroundLabel();
+  options.FlatBorder = filter->GetBorder() == vtkLabelSplit::Flat;
+  options.Padding = filter->GetPadding();
+  options.MemoryLimit = filter->GetMemoryLimit();
+  return options;
+}
+
 GridFrame BlockFrame(const GridFrame& source, const Box& box)
 {
   std::array<int, 6> extent = box;
@@ -286,17 +180,16 @@ GridFrame BlockFrame(const GridFrame& source, const Box& box)
   return GridFrame(extent, source.Origin(), source.Spacing(), source.Direction());
 }
 
-/// Appends the blocks. Returns the labels of materials of which resampling or opening left nothing; where resampling
-/// did, there is no block.
-std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, CollectionHeader& header,
-  vtkPartitionedDataSetCollection* output, const Monitor& monitor)
+/// Appends the blocks, or only the materials to the header. Returns the labels of materials of which resampling or
+/// opening left nothing; where resampling did, there is no block.
+std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, bool headerOnly,
+  CollectionHeader& header, vtkPartitionedDataSetCollection* output, const Monitor& monitor)
 {
   const Lattice source = image.Frame.Samples();
   const int count = int(image.Labels.size());
   const int layers = ContinuedLayers(filter, source);
   const std::vector<Box> boxes = BoxesOf(image.Ids, source, count);
-  const auto background =
-    MaterialId(std::lower_bound(image.Labels.begin(), image.Labels.end(), header.Background) - image.Labels.begin());
+  const MaterialId background = IdOf(image, header.Background);
   std::vector<Label> lost;
   for (int id = 0; id < count; ++id)
   {
@@ -309,6 +202,11 @@ std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, C
     material.Label = image.Labels[id];
     material.Name = filter->GetMaterialName(material.Label);
     filter->GetMaterialColor(material.Label, material.Color.data());
+    header.Materials.push_back(material);
+    if (headerOnly)
+    {
+      continue;
+    }
     monitor.Step(double(id) / count, "Mask of " + material.Name);
     MaskOptions options;
     options.OpeningRadius = RadiusIn(source, "opening", filter->GetMaterialOpeningRadius(material.Label));
@@ -326,7 +224,6 @@ std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, C
     {
       lost.push_back(material.Label);
     }
-    header.Materials.push_back(material);
     AppendBlock(output, material, frame, mask);
   }
   return lost;
@@ -482,32 +379,68 @@ int vtkLabelSplit::RequestInformation(
   {
     try
     {
-      const GridFrame source = Resampled(frame, this->ResamplingFactor);
+      const double factor = this->Upsamples() ? this->FindUpsampling(inputVector) : this->ResamplingFactor;
+      const GridFrame source = Resampled(frame, factor);
       PublishFrame(outInfo, source, this->Padding + ContinuedLayers(this, source.Samples()));
       return 1;
     }
     catch (const std::invalid_argument&)
     {
-      // RequestData says what is wrong with the factor.
+      // RequestData says what is wrong with the factor or with the labels.
     }
   }
   UnpublishFrame(outInfo);
   return 1;
 }
 
+double vtkLabelSplit::FindUpsampling(vtkInformationVector** inputVector)
+{
+  int port = 0;
+  if (vtkAlgorithm* producer = this->GetInputAlgorithm(0, 0, port))
+  {
+    producer->Update(port);
+  }
+  vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
+  const std::array<vtkMTimeType, 2> state{ input->GetMTime(), this->GetMTime() };
+  if (input->GetNumberOfPoints() > 0 && state != this->UpsamplingState)
+  {
+    int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+    vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
+    std::vector<Label> missing;
+    LabelImage image = LabelsToSplit(this, input, array, association, this->Labels, missing);
+    if (this->MinimumComponentSize > 0)
+    {
+      vtkNew<vtkFieldData> unused;
+      DropSmall(image, this->BackgroundLabel, this->MinimumComponentSize, unused);
+    }
+    this->UpsamplingFactor = ChooseUpsampling(image, UpsamplingOptionsOf(this)).Factor;
+    this->UpsamplingState = state;
+  }
+  return input->GetNumberOfPoints() > 0 ? this->UpsamplingFactor : 1;
+}
+
 int vtkLabelSplit::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  RequestAll(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
-int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelSplit::FillOutputPortInformation(int port, vtkInformation* info)
 {
+  PromiseFirstPiece(info);
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
+int vtkLabelSplit::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const bool first = RequestedPiece(request, outputVector).IsFirst();
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
   return RunStage(this,
     [&](const Monitor& monitor)
     {
+      RequireWhole(inputVector[0]->GetInformationObject(0), input);
       CollectionHeader header;
       header.Background = this->BackgroundLabel;
       header.Padding = this->Padding;
@@ -532,10 +465,28 @@ int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVect
         DropSmall(image, this->BackgroundLabel, this->MinimumComponentSize, output->GetFieldData());
       }
       monitor.Step(0.1, "Resampling");
-      Resample(image, this->ResamplingFactor);
+      if (this->Upsamples())
+      {
+        const Upsampling upsampling = ChooseUpsampling(image, UpsamplingOptionsOf(this));
+        WriteUpsampling(output->GetFieldData(), upsampling);
+        if (upsampling.HeldByMemory)
+        {
+          vtkWarningMacro("" << upsampling.Reason);
+        }
+        Resample(image, upsampling);
+      }
+      else
+      {
+        Resample(image, this->ResamplingFactor);
+      }
       header.Source = image.Frame;
       header.Padding = this->Padding + ContinuedLayers(this, image.Frame.Samples());
-      const std::vector<Label> lost = AppendMasks(this, image, header, output, monitor.Part(0.2, 1.0));
+      const std::vector<Label> lost = AppendMasks(this, image, !first, header, output, monitor.Part(0.2, 1.0));
+      if (!first)
+      {
+        AppendEmptyBlocks(output, header);
+        return;
+      }
       WriteHeader(output, header);
       if (!missing.empty())
       {
@@ -567,6 +518,7 @@ void vtkLabelSplit::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Padding: " << this->Padding << "\n";
   os << indent << "Border: " << (this->Border == Flat ? "Flat" : "Closed") << "\n";
   os << indent << "ResamplingFactor: " << this->ResamplingFactor << "\n";
+  os << indent << "MaximumUpsampling: " << this->MaximumUpsampling << "\n";
   os << indent << "MinimumComponentSize: " << this->MinimumComponentSize << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "OpeningRadius: " << this->OpeningRadius << "\n";

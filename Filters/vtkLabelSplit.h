@@ -26,6 +26,9 @@
  * and corners.
  *  - ResamplingFactor: each label's 0/1 function is interpolated linearly at the new samples and the largest wins. The
  * new grid covers the same voxels; its extent starts at 0. A finer grid keeps thinner parts in vtkTighten.
+ *  - MaximumUpsampling: the labels are measured, and where a label has much that is thin or small the whole volume
+ * gets a finer grid. Voxels of thin and small parts are repeated, the others interpolated as above. Field data of the
+ * output say what was chosen and why: Upsampling (int32), UpsamplingReason (string).
  *  - OpeningRadius, ClosingRadius: binary opening, then closing, of a material by a ball. Other materials' masks do not
  *    change: what an opening takes away goes to the nearest material in later stages, and where a closing overlaps
  * another material the deeper one wins. The background is changed only by a radius of its own.
@@ -99,6 +102,15 @@ public:
   ///@}
 
   ///@{
+  /// Samples per voxel along each axis, at most, that the labels may ask for: the least number of them is taken that
+  /// holds what is under two voxels thick and components of fewer than 300 voxels (see Core/DelicateParts.h), less
+  /// where MemoryLimit does not allow it, with a warning. With ResamplingFactor 1 alone. 1: nothing is looked for.
+  /// Default 1.
+  vtkSetClampMacro(MaximumUpsampling, int, 1, 4);
+  vtkGetMacro(MaximumUpsampling, int);
+  ///@}
+
+  ///@{
   /// Connected components (voxels that share a face, an edge or a corner) of a label with fewer voxels are given to the
   /// label that they share most faces with, before anything else. Field data of the output names them: DroppedLabels,
   /// DroppedInto, DroppedVoxels (int64), DroppedPositions (world, of the first voxel). 0: none are. Default 0.
@@ -157,6 +169,7 @@ protected:
   ~vtkLabelSplit() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -166,6 +179,7 @@ protected:
   int Padding = 6;
   int Border = Closed;
   double ResamplingFactor = 1.0;
+  int MaximumUpsampling = 1;
   vtkIdType MinimumComponentSize = 0;
   double MemoryLimit = 0.0;
   double OpeningRadius = 0.0;
@@ -176,6 +190,13 @@ protected:
   std::map<vtkIdType, std::array<double, 3>> MaterialColors;
 
 private:
+  /// Whether the labels decide on the grid.
+  bool Upsamples() const { return this->MaximumUpsampling > 1 && this->ResamplingFactor == 1.0; }
+  /// What they ask for: it has to be known before RequestData, so the input is brought up to date.
+  double FindUpsampling(vtkInformationVector** inputVector);
+  int UpsamplingFactor = 1;                            // found last,
+  std::array<vtkMTimeType, 2> UpsamplingState{ 0, 0 }; // when the input and this were last modified then
+
   vtkLabelSplit(const vtkLabelSplit&) = delete;
   void operator=(const vtkLabelSplit&) = delete;
 };

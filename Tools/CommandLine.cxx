@@ -101,6 +101,23 @@ void ParseMaterial(const std::string& text, std::map<long long, MaterialOptions>
   }
 }
 
+void ParseInterface(const std::string& text, std::map<std::array<long long, 2>, double>& lengths)
+{
+  const std::string option = "--interface " + text;
+  const std::size_t colon = text.find(":length=");
+  const std::vector<std::string> labels = Split(text.substr(0, colon), ',');
+  if (colon == std::string::npos || labels.size() != 2)
+  {
+    Fail("--interface needs A,B:length=L, found '" + text + "'");
+  }
+  const long long a = ParseInteger(option, labels[0]), b = ParseInteger(option, labels[1]);
+  if (a == b)
+  {
+    Fail(option + ": an interface is between two labels");
+  }
+  lengths[{ std::min(a, b), std::max(a, b) }] = ParseNumber(option + ": length", text.substr(colon + 8), 0.0);
+}
+
 using Action = std::function<void(const std::string& option, const std::string& value)>;
 
 /// The options that take a value.
@@ -196,6 +213,8 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--gradation", number(line.Gradation, 1e-3) },
     { "--memory-limit", number(line.MemoryLimit, 0.0) },
     { "--material", [&line](const std::string&, const std::string& value) { ParseMaterial(value, line.Materials); } },
+    { "--interface",
+      [&line](const std::string&, const std::string& value) { ParseInterface(value, line.InterfaceLengths); } },
     { "--labels",
       [&line](const std::string& option, const std::string& value)
       {
@@ -215,6 +234,16 @@ std::map<std::string, Action> Actions(CommandLine& line)
       {
         line.MinimumComponent =
           static_cast<long long>(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0));
+      } },
+    { "--upsample",
+      [&line](const std::string& option, const std::string& value)
+      {
+        const long long limit = ParseInteger(option, value);
+        if (limit < 1 || limit > 4)
+        {
+          Fail("--upsample is " + value + "; expected 1 to 4 samples per voxel along each axis, at most");
+        }
+        line.MaximumUpsampling = static_cast<int>(limit);
       } },
     { "--triangles",
       [&line](const std::string& option, const std::string& value) {
@@ -283,8 +312,9 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
       Fail(std::string(option) + " belongs to --tets FILE.vtu; leave it out without");
     }
   }
-  for (const char* option : { "--particles", "--tets", "--border", "--smoothing", "--radius", "--material", "--epsilon",
-         "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component" })
+  for (const char* option :
+    { "--particles", "--tets", "--border", "--smoothing", "--radius", "--material", "--interface", "--epsilon",
+      "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component", "--upsample" })
   {
     if (line.Grid && given.count(option))
     {
@@ -374,6 +404,8 @@ Method:
   --method grid         marching cubes, smoothing, decimation: the baseline to compare with
 
 Particle method (radii in voxels, lengths in world units):
+  --upsample N          where labels are thin or small, up to N samples per voxel along each axis (1 to 4), as few as
+                        will do, within --memory-limit (default 1: none)
   --border closed       space around the volume is background: surfaces close there, rounded (default)
   --border flat         surfaces end exactly in the faces of the box of voxels, with its edges and corners
   --smoothing volume    all materials together, their volumes and thin parts stay (default)
@@ -381,6 +413,7 @@ Particle method (radii in voxels, lengths in world units):
   --radius R            least radius of curvature after smoothing (default 0.7)
   --material LABEL:key=value,...  for one material: radius=R, opening=R, closing=R, max-length=L, name=TEXT,
                         color=#rrggbb; may be given several times
+  --interface A,B:length=L  longest edge on the interface between two labels; may be given several times
   --epsilon E           edge length over feature size (default 0.65)
   --min-length L, --max-length L  bounds of the edge length
   --deviation D         voxels that edges may stay beside curved surfaces (default 0.2; 0: no bound)

@@ -402,6 +402,14 @@ void AddTail(const ReportInput& input, Json& json)
   json.Integer("peak_memory_bytes", static_cast<long long>(usage.ru_maxrss) * 1024); // Linux counts in KiB
   json.Integer("threads", input.Threads).Text("version", LABELMESH_VERSION);
 }
+
+/// What was chosen where finer grids are allowed, and why; empty where none are.
+std::string UpsamplingReason(const ReportInput& input)
+{
+  vtkFieldData* fieldData = input.Surfaces ? input.Surfaces->GetFieldData() : nullptr;
+  auto* reason = fieldData ? vtkStringArray::SafeDownCast(fieldData->GetAbstractArray("UpsamplingReason")) : nullptr;
+  return reason ? reason->GetValue(0) : "";
+}
 }
 
 vtkSmartPointer<vtkLabelMeshReport> CheckMesh(const ReportInput& input)
@@ -433,6 +441,10 @@ vtkSmartPointer<vtkLabelMeshReport> CheckMesh(const ReportInput& input)
 std::vector<std::string> Verdict(const ReportInput& input, vtkLabelMeshReport* report)
 {
   std::vector<std::string> sentences{ CertificateOf(report->GetOutput(0)) };
+  if (!UpsamplingReason(input).empty())
+  {
+    sentences.push_back("upsampling: " + UpsamplingReason(input));
+  }
   std::map<std::string, std::vector<LossEntry>> byStage;
   for (const LossEntry& loss : LossesOf(input, report))
   {
@@ -467,6 +479,13 @@ std::string JsonReport(const ReportInput& input, vtkLabelMeshReport* report)
   }
   json.Add("materials", Array(rows, ","));
   json.Add("interfaces", InterfacesJson(report->GetOutput(1)));
+  if (!UpsamplingReason(input).empty())
+  {
+    Json upsampling;
+    vtkDataArray* factor = input.Surfaces->GetFieldData()->GetArray("Upsampling");
+    upsampling.Integer("factor", static_cast<long long>(factor->GetComponent(0, 0)));
+    json.Add("upsampling", upsampling.Text("reason", UpsamplingReason(input)).Object());
+  }
   if (input.Particles)
   {
     json.Add("cells", CellsJson(input.Particles));

@@ -55,6 +55,7 @@ std::vector<std::string> Verdict(const ReportInput& input, vtkLabelMeshReport* r
 ///    vtkLabelMeshReport.h,
 ///  background: the same of the background; its volume is negative: the space that the materials take,
 ///  interfaces [{labels, triangles, area, min_radius_ratio, mean_radius_ratio, voxel_faces}],
+///  upsampling {factor, reason} (where --upsample allows it): samples per voxel along each axis, and a sentence,
 ///  cells {"0", "1", "2"}: particles on 0-, 1- and 2-cells (particle method),
 ///  tetrahedra (when asked for) {count, turned_over, slivers, min_radius_ratio, p1_radius_ratio, mean_radius_ratio,
 ///    min_dihedral_degrees, max_dihedral_degrees, volume, worst_tetrahedron, histogram: of the dihedral angles by 10

@@ -173,6 +173,16 @@ std::vector<long long> LabelsToMesh(const CommandLine& line, const std::set<long
   {
     require(material.first, "--material");
   }
+  for (const auto& own : line.InterfaceLengths)
+  {
+    for (const long long label : own.first)
+    {
+      if (label != line.Background)
+      {
+        require(label, "--interface");
+      }
+    }
+  }
   labels.erase(line.Background);
   if (labels.empty())
   {
@@ -263,6 +273,7 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
   set(line.Gradation, &vtkLabelMesher::SetGradation);
   set(line.MemoryLimit, &vtkLabelMesher::SetMemoryLimit);
   mesher->SetMinimumComponentSize(line.MinimumComponent);
+  mesher->SetMaximumUpsampling(line.MaximumUpsampling);
   mesher->SetTargetTriangles(line.Triangles);
   if (!line.Tets.empty())
   {
@@ -272,6 +283,10 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
     mesher->SetTetraImprovePasses(line.TetImprovePasses.value_or(mesher->GetTetraImprovePasses()));
     set(line.VolumeGradation, &vtkLabelMesher::SetVolumeGradation);
     set(line.VolumeMaximumLength, &vtkLabelMesher::SetVolumeMaximumLength);
+  }
+  for (const auto& [labels, length] : line.InterfaceLengths)
+  {
+    mesher->SetInterfaceMaximumLength(labels[0], labels[1], length);
   }
   for (const auto& [label, material] : line.Materials)
   {

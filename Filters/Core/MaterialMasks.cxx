@@ -4,6 +4,8 @@
 #include "DistanceTransform.h"
 #include "Parallel.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,7 @@ namespace
 struct Support
 {
   int First = 0;
+  int Nearest = 0;
   std::vector<double> Weights;
 };
 
@@ -29,6 +32,7 @@ std::vector<Support> SupportsAlong(int axis, const GridFrame& from, const GridFr
   {
     const double center = (target.Origin[axis] - source.Origin[axis]) / source.Spacing[axis] + i * ratio;
     Support& support = supports[i];
+    support.Nearest = std::clamp(int(std::lround(center)), 0, source.Dims[axis] - 1);
     support.First = std::max(0, int(std::floor(center - width)) + 1);
     const int last = std::min(source.Dims[axis] - 1, int(std::ceil(center + width)) - 1);
     for (int s = support.First; s <= last; ++s)
@@ -101,7 +105,8 @@ GridFrame Resampled(const GridFrame& source, double factor)
   return GridFrame(extent, source.LocalToWorld(first), spacing, source.Direction());
 }
 
-std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const GridFrame& from, const GridFrame& to)
+std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const GridFrame& from, const GridFrame& to,
+  const std::vector<std::uint8_t>* repeated)
 {
   const Lattice source = from.Samples(), target = to.Samples();
   const std::vector<Support> x = SupportsAlong(0, from, to), y = SupportsAlong(1, from, to),
@@ -118,15 +123,22 @@ std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const
         for (int i = 0; i < target.Dims[0]; ++i)
         {
           const Support& sx = x[i];
+          const Index nearest = source.At(sx.Nearest, sy.Nearest, sz.Nearest);
+          if (repeated && (*repeated)[nearest])
+          {
+            resampled[row * target.Dims[0] + i] = ids[nearest];
+            continue;
+          }
           votes.Clear();
           for (std::size_t c = 0; c < sz.Weights.size(); ++c)
           {
             for (std::size_t b = 0; b < sy.Weights.size(); ++b)
             {
-              const MaterialId* from0 = ids.data() + source.At(sx.First, sy.First + Index(b), sz.First + Index(c));
+              const Index first = source.At(sx.First, sy.First + Index(b), sz.First + Index(c));
               for (std::size_t a = 0; a < sx.Weights.size(); ++a)
               {
-                votes.Add(from0[a], sx.Weights[a] * sy.Weights[b] * sz.Weights[c]);
+                const double weight = repeated && (*repeated)[first + Index(a)] ? 0.0 : sx.Weights[a];
+                votes.Add(ids[first + Index(a)], weight * sy.Weights[b] * sz.Weights[c]);
               }
             }
           }

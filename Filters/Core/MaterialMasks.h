@@ -18,8 +18,10 @@ using Box = std::array<int, 6>;
 GridFrame Resampled(const GridFrame& source, double factor);
 
 /// The ids on a finer or coarser grid: each id's 0/1 function is interpolated linearly (averaged with a tent as wide as
-/// the new voxel on a coarser grid), and the largest wins; ties go to the smaller id.
-std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const GridFrame& from, const GridFrame& to);
+/// the new voxel on a coarser grid), and the largest wins; ties go to the smaller id. `repeated` (per voxel; for finer
+/// grids): voxels whose new samples all have their id, and that count for no other sample.
+std::vector<MaterialId> ResampleLabels(const std::vector<MaterialId>& ids, const GridFrame& from, const GridFrame& to,
+  const std::vector<std::uint8_t>* repeated = nullptr);
 
 /// The box of every id below `count`, relative to the first sample of the lattice. One pass over the volume.
 std::vector<Box> BoxesOf(const std::vector<MaterialId>& ids, const Lattice& lattice, int count);

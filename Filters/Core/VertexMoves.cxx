@@ -36,15 +36,20 @@ void Restrain(const SurfaceComplex& complex, double leastRatio, std::vector<Vec3
   }
   while (!suspects.empty())
   {
-    std::vector<Index> taken;
-    for (const std::int32_t t : suspects)
-    {
-      if (!StaysGood(complex, t, moves, leastRatio))
+    constexpr Index chunk = 1024;
+    const Index count = Index(suspects.size());
+    std::vector<Index> taken = ParallelCollect<Index>((count + chunk - 1) / chunk,
+      [&](Index c, std::vector<Index>& found)
       {
-        const auto& v = complex.Triangle(t).Vertices;
-        taken.insert(taken.end(), v.begin(), v.end());
-      }
-    }
+        for (Index n = c * chunk; n < std::min(count, (c + 1) * chunk); ++n)
+        {
+          if (!StaysGood(complex, suspects[n], moves, leastRatio))
+          {
+            const auto& v = complex.Triangle(suspects[n]).Vertices;
+            found.insert(found.end(), v.begin(), v.end());
+          }
+        }
+      });
     std::sort(taken.begin(), taken.end());
     taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
     for (const Index v : taken)

@@ -5,6 +5,8 @@
 #include "LabelMeshNames.h"
 #include "MeshAdapter.h"
 #include "TestMeshes.h"
+#include "vtkLabelMesher.h"
+#include "vtkTighten.h"
 
 #include <vtkCell.h>
 #include <vtkCellData.h>
@@ -408,6 +410,57 @@ TEST(LabelMeshReport, StagesOfLosses)
   EXPECT_EQ(stageOf(2), "Tighten or later") << "a particle beside the speck may be of another part";
 }
 
+TEST(LabelMeshReport, RebuiltVoxelsStandInForTheirImage)
+{
+  // Smoothing takes the speck of two voxels and the thread away, and rounds the ball.
+  const auto volume = LabelVolume({ 2, 21, -3, 16, 5, 24 },
+    [](int i, int j, int k)
+    {
+      const bool ball = (i - 12) * (i - 12) + (j - 6) * (j - 6) + (k - 14) * (k - 14) < 30;
+      return ball ? 4 : i == 4 && j == 0 && k < 9 ? 7 : i < 6 && j == 14 && k == 20 ? 9 : k == 23 ? 5 : 0;
+    });
+  vtkNew<vtkLabelMesher> mesher;
+  Complaints complaints(mesher);
+  mesher->SetInputData(volume);
+  mesher->SetSmoothing(vtkTighten::Tightening);
+  mesher->SetRadius(1.5);
+  mesher->AddLabel(4);
+  mesher->AddLabel(7);
+  mesher->AddLabel(9); // 5 is not to be meshed
+  mesher->Update();
+  vtkDataArray* voxels = mesher->GetSurfaces()->GetFieldData()->GetArray(Names::RebuiltVoxels);
+  ASSERT_NE(voxels, nullptr);
+  EXPECT_LT(voxels->GetNumberOfValues(), 300) << "those that smoothing took alone";
+
+  vtkNew<vtkLabelMeshReport> report;
+  report->SetInputData(0, mesher->GetOutput());
+  report->SetInputData(1, volume);
+  report->SetInputData(2, mesher->GetSurfaces());
+  report->SetInputData(4, mesher->GetParticles());
+  const auto ledger = [&]()
+  {
+    report->Update();
+    std::string text;
+    for (vtkIdType row = 0; row < report->GetOutput(2)->GetNumberOfRows(); ++row)
+    {
+      text += Text(report->GetOutput(2), int(row), "What") + " " + Text(report->GetOutput(2), int(row), "Stage") + "\n";
+    }
+    return text;
+  };
+  const std::string withVoxels = ledger();
+  EXPECT_EQ(Text(report->GetOutput(2), 0, "Stage"), "Tighten") << withVoxels;
+  EXPECT_EQ(Text(report->GetOutput(2), 1, "Stage"), "Tighten") << withVoxels;
+  report->SetInputData(3, mesher->GetLabelImage());
+  EXPECT_EQ(ledger(), withVoxels);
+
+  // Those of another volume.
+  report->SetInputData(3, nullptr);
+  report->SetInputData(1, LabelVolume({ 0, 3, 0, 3, 0, 3 }, [](int i, int, int) { return i < 2 ? 4 : 0; }));
+  Complaints words(report);
+  report->Update();
+  EXPECT_TRUE(words.Say("another volume")) << words.Text;
+}
+
 TEST(LabelMeshReport, ErrorMap)
 {
   vtkNew<vtkLabelMeshReport> report;
@@ -433,6 +486,27 @@ TEST(LabelMeshReport, ErrorMap)
   report->RemoveAllInputConnections(1);
   report->Update();
   EXPECT_TRUE(complaints.Say("input port 1")) << complaints.Text;
+}
+
+TEST(LabelMeshReport, CountsRadiusRatiosInBins)
+{
+  // Halves of squares have a radius ratio of 2 (sqrt(2) - 1), those of rectangles of 2 by 1 of 0.68.
+  vtkNew<vtkLabelMeshReport> report;
+  report->SetInputData(0, Mesh({ 0, 4, 7 }));
+  report->Update();
+  vtkTable* ratios = report->GetRadiusRatiosOutput();
+  ASSERT_EQ(ratios->GetNumberOfRows(), 50);
+  EXPECT_EQ(ratios->GetColumnByName("Tetrahedra"), nullptr);
+  double counted = 0.0;
+  for (vtkIdType bin = 0; bin < 50; ++bin)
+  {
+    counted += Cell(ratios, bin, "Triangles");
+  }
+  EXPECT_EQ(counted, Total(report->GetOutput(0), "Triangles"));
+  EXPECT_EQ(Cell(ratios, 41, "Triangles") + Cell(ratios, 34, "Triangles") + Cell(ratios, 33, "Triangles"), counted);
+  report->SetInputData(0, vtkNew<vtkPolyData>());
+  report->Update();
+  EXPECT_EQ(report->GetRadiusRatiosOutput()->GetNumberOfRows(), 50);
 }
 
 TEST(LabelMeshReport, SaysWhatIsMissing)

@@ -255,6 +255,46 @@ TEST(LabelMesher, UserSizing)
   EXPECT_EQ(mesher->GetOutput()->GetNumberOfCells(), free);
 }
 
+TEST(LabelMesher, ALengthPerInterface)
+{
+  // The longest edge between 1 and 2, and among those of 1 and the background that are far from 2.
+  const auto longest = [](vtkPolyData* mesh, double& between, double& away)
+  {
+    between = away = 0;
+    vtkDataArray* labels = mesh->GetCellData()->GetArray(Names::BoundaryLabels);
+    const InterfaceData data = ReadInterface(mesh);
+    for (vtkIdType t = 0; t < mesh->GetNumberOfCells(); ++t)
+    {
+      const double sum = labels->GetComponent(t, 0) + labels->GetComponent(t, 1);
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const Vec3& a = data.Points[data.Triangles[t].Vertices[corner]];
+        const double length = (a - data.Points[data.Triangles[t].Vertices[(corner + 1) % 3]]).norm();
+        double& most = sum == 3 ? between : away;
+        if (sum == 3 || (sum == 1 && a[2] > 0.7 * 32))
+        {
+          most = std::max(most, length);
+        }
+      }
+    }
+  };
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputDataObject(TwoSpheres(32));
+  mesher->Update();
+  double between = 0, away = 0, fineBetween = 0, fineAway = 0;
+  longest(mesher->GetOutput(), between, away);
+  mesher->SetInterfaceMaximumLength(2, 1, 0.5);
+  EXPECT_EQ(mesher->GetInterfaceMaximumLength(1, 2), 0.5);
+  mesher->Update();
+  longest(mesher->GetOutput(), fineBetween, fineAway);
+  EXPECT_GT(between, 1.5);
+  EXPECT_LT(fineBetween, 1.0); // edges are at most about 1.6 target lengths long
+  EXPECT_NEAR(fineAway, away, 0.35 * away);
+  EXPECT_EQ(mesher->GetStageRuns("Tighten"), 1) << "only the sizing and what follows it";
+  mesher->ClearInterfaceMaximumLengths();
+  EXPECT_EQ(mesher->GetInterfaceMaximumLength(1, 2), 0.0);
+}
+
 TEST(LabelMesher, MirroredAndOriented)
 {
   for (const bool mirrored : { false, true })

@@ -403,6 +403,26 @@ TEST(Tetrahedra, AreReported)
       all);
   }
   EXPECT_EQ(angles, 6.0 * total("Tetrahedra"));
+  vtkTable* ratios = report->GetRadiusRatiosOutput();
+  ASSERT_EQ(ratios->GetNumberOfRows(), 50);
+  double cells[2] = { 0.0, 0.0 }, means[2] = { 0.0, 0.0 };
+  const char* const columns[] = { "Triangles", "Tetrahedra" };
+  for (vtkIdType bin = 0; bin < 50; ++bin)
+  {
+    const double middle = ratios->GetValueByName(bin, Names::BinExtents).ToDouble();
+    EXPECT_NEAR(middle, 0.01 + 0.02 * double(bin), 1e-12);
+    for (int c = 0; c < 2; ++c)
+    {
+      const double here = ratios->GetValueByName(bin, columns[c]).ToDouble();
+      cells[c] += here;
+      means[c] += here * middle;
+    }
+  }
+  EXPECT_EQ(cells[0], double(mesher->GetOutput()->GetNumberOfCells()));
+  EXPECT_EQ(cells[1], total("Tetrahedra"));
+  // Half a bin at most is lost where ratios are counted by bins.
+  EXPECT_NEAR(means[0] / cells[0], surfaces->GetFieldData()->GetArray("MeanRadiusRatio")->GetComponent(0, 0), 0.01);
+  EXPECT_NEAR(means[1] / cells[1], total("MeanRadiusRatio"), 0.01);
 }
 
 TEST(Tetrahedra, LeaveTheSurfaceAsItIs)

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pictures for the screen, a tenth of the size of those for print: pictures.py PRINT.png SCREEN.png [WIDTH]"""
+import io
+import sys
+from pathlib import Path
+
+from PIL import Image, ImageColor
+
+WIDTH = 1050               # dots
+FRAME_COLOUR = "#c03028"   # around what a close-up shows
+
+
+def for_screen(path, width=WIDTH):
+    """A PNG of at most that width, in 256 colours. White and frames keep theirs, which may not be among the frequent ones."""
+    picture = Image.open(path).convert("RGB")
+    if picture.width > width:
+        picture = picture.resize((width, round(picture.height * width / picture.width)), Image.LANCZOS)
+    frequent = picture.quantize(254).getpalette()[:3 * 254]
+    colours = Image.new("P", (1, 1))
+    colours.putpalette(frequent + list(ImageColor.getrgb(FRAME_COLOUR)) + [255] * 3)
+    output = io.BytesIO()
+    picture.quantize(palette=colours, dither=Image.Dither.NONE).save(output, "PNG", optimize=True)
+    return output.getvalue()
+
+
+if __name__ == "__main__":
+    Path(sys.argv[2]).write_bytes(for_screen(sys.argv[1], *map(int, sys.argv[3:])))
