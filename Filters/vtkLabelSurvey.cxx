@@ -6,6 +6,7 @@
 #include "IndicatorCollection.h"
 #include "LabelImage.h"
 #include "LabelMeshNames.h"
+#include "ServerPieces.h"
 #include "WorkingImage.h"
 
 #include <vtkDataArray.h>
@@ -104,7 +105,7 @@ int vtkLabelSurvey::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkLabelSurvey::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  RequestAll(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
