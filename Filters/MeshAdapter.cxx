@@ -448,6 +448,13 @@ void TetrahedraToGrid(const TetraMesh& mesh, const CollectionHeader& header, vtk
   output->GetCellData()->AddArray(labels);
   output->GetCellData()->AddArray(ratios);
   WriteMaterials(output->GetFieldData(), header.Materials, header.Background);
+  auto direction = NewArray<vtkDoubleArray>(Names::SourceDirection, 9, 1);
+  const Mat3& axes = header.Source.Direction();
+  for (int i = 0; i < 9; ++i)
+  {
+    direction->SetValue(i, axes(i / 3, i % 3));
+  }
+  output->GetFieldData()->AddArray(direction);
 }
 
 InterfaceData ReadInterface(vtkPolyData* mesh)

@@ -34,7 +34,7 @@ void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Partic
 void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output);
 
 /// Tetrahedra with cell arrays Label and RadiusRatio; the points of the interface come first, with the bits that
-/// InterfaceToPolyData gives them. Field data as WriteMaterials.
+/// InterfaceToPolyData gives them. Field data as WriteMaterials, and SourceDirection.
 void TetrahedraToGrid(const TetraMesh& mesh, const CollectionHeader& header, vtkUnstructuredGrid* output);
 
 /// One closed, outward-oriented vtkPolyData per label that is not the background, ascending, NAME and field data Label

@@ -129,21 +129,26 @@ TetraImproveResult ImproveTetrahedra(TetraMesh& mesh, const TetraImproveOptions&
   TetraImproveResult result;
   monitor.Step(0.0, "Improving tetrahedra");
   TetraComplex complex(std::move(mesh));
+  Improver improver(complex, options, result);
+  const auto mend = [&](double first, double last)
+  {
+    for (int pass = 0; pass < options.Passes; ++pass)
+    {
+      const double begin = first + (last - first) * pass / options.Passes;
+      ++result.Passes;
+      if (improver.Pass(options.WantedQuality, monitor.Part(begin, begin + (last - first) / options.Passes)) == 0)
+      {
+        return;
+      }
+    }
+  };
+  mend(0.1, 0.5);
   for (int pass = 0; pass < options.SmoothingPasses; ++pass)
   {
+    monitor.Step(0.5 + 0.4 * pass / options.SmoothingPasses);
     result.Moves += SmoothAll(complex, options.WantedQuality);
-    monitor.Step(0.3 * (pass + 1) / options.SmoothingPasses);
   }
-  Improver improver(complex, options, result);
-  while (result.Passes < options.Passes)
-  {
-    const double begin = 0.3 + 0.7 * result.Passes / options.Passes;
-    ++result.Passes;
-    if (improver.Pass(options.WantedQuality, monitor.Part(begin, begin + 0.7 / options.Passes)) == 0)
-    {
-      break;
-    }
-  }
+  mend(0.9, 1.0);
   TetraSliding sliding(complex, options.Slide);
   for (int round = 0; round < options.Slide.Rounds; ++round)
   {

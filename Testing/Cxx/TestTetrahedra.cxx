@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tetrahedra inside the materials: from handmade surfaces, and through all stages.
 #include "Core/ConstrainedDelaunay.h"
+#include "Core/TetraFaces.h"
 #include "LabelMeshNames.h"
 #include "MeshAdapter.h"
 #include "TestCollections.h"
 #include "TestMeshes.h"
+#include "TetraReader.h"
 #include "vtkDelaunayLabelMesh.h"
 #include "vtkLabelMeshReport.h"
 #include "vtkLabelMesher.h"
@@ -466,6 +468,24 @@ TEST(Tetrahedra, FillAFlatBoxExactly)
   }
   const double box = 12 * 12 * 16 * frame.Spacing().prod();
   EXPECT_NEAR(sum, box, 1e-9 * box);
+  // Sets for all six sides of the turned box.
+  const TetraData data = ReadTetrahedra(mesher->GetTetrahedraOutput());
+  std::map<int, double> sides;
+  for (const FacePatch& patch : FindPatches(data.Mesh, data.Background, data.Axes))
+  {
+    for (const TetraFace& face : patch.Faces)
+    {
+      const auto& c = data.Mesh.Corners[face.Tetra];
+      const auto& n = LabelMesh::FaceCorners[face.Opposite];
+      const Vec3& a = data.Mesh.Points[c[n[0]]];
+      sides[patch.Side] += 0.5 * (data.Mesh.Points[c[n[1]]] - a).cross(data.Mesh.Points[c[n[2]]] - a).norm();
+    }
+  }
+  const Vec3 size = frame.Spacing().cwiseProduct(Vec3(12, 12, 16));
+  for (int side = 0; side < 6; ++side)
+  {
+    EXPECT_NEAR(sides[side] * size[side / 2], box, 1e-9 * box) << side;
+  }
 }
 
 TEST(Tetrahedra, SameBitsForAnyNumberOfThreads)

@@ -452,6 +452,8 @@ class TestRefusals(CommandLineTest):
         self.refuse("packed or tetgen", self.spheres, *mesh, "--tets", "t.vtu", "--tet-method", "magic")
         self.refuse("belongs to --tets", self.spheres, *mesh, "--tet-refine", "1")
         self.refuse("belongs to --tets", self.spheres, *mesh, "--tet-improve", "1")
+        self.refuse("belongs to --tets", self.spheres, *mesh, "--tet-slide", "off")
+        self.refuse("on or off", self.spheres, *mesh, "--tets", "t.vtu", "--tet-slide", "maybe")
         self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--tets", "t.vtu")
         self.refuse("writes a .vtp file", self.spheres, "-o", "m.stl")
         self.refuse("no folder 'gone'", self.spheres, "-o", "gone/m.vtp")
