@@ -18,7 +18,7 @@ LoadPlugin(os.environ["LABELMESH_PLUGIN"], remote=False, ns=globals())
 UNITS = {"voxels": "voxel", "samples": "sample", "samples per voxel": "samples per voxel", "1 / voxel": "per voxel",
          "length": "length unit of the image", "degrees": "degrees", "GiB": "gibibytes", "ratio": "", "count": "",
          "number": "", "label": "label", "seconds": "seconds"}
-AREAS = ("Labels", "Material ", "Smoothing", "Sizing", "Particles", "Output")
+AREAS = ("Labels", "Material", "Smoothing", "Sizing", "Particles", "Output")
 MODES = ("visibility", "enabled_state")
 
 failures = []
