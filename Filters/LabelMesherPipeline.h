@@ -19,6 +19,7 @@
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkTrivialProducer.h>
@@ -39,13 +40,15 @@ public:
   /// The image's structure and the array as its scalars.
   void Set(vtkImageData* image, vtkDataArray* array, bool cellData)
   {
-    const std::array<vtkMTimeType, 3> state = { image->GetMTime(), array ? array->GetMTime() : 0, cellData ? 1u : 0u };
-    if (state == this->State && array == this->Array)
+    // Not the image's own time: ParaView gives a filter a new image around the same array each time it runs.
+    const vtkMTimeType time = array ? array->GetMTime() : 0;
+    if (array == this->Array && time == this->Time && cellData == this->CellData && this->HasStructureOf(image))
     {
       return;
     }
-    this->State = state;
     this->Array = array;
+    this->Time = time;
+    this->CellData = cellData;
     this->Image->Initialize();
     this->Image->CopyStructure(image);
     if (array)
@@ -62,10 +65,20 @@ public:
   vtkAlgorithmOutput* GetOutputPort() { return this->Producer->GetOutputPort(); }
 
 private:
+  bool HasStructureOf(vtkImageData* image) const
+  {
+    const auto same = [](const auto* a, const auto* b, int count) { return std::equal(a, a + count, b); };
+    return same(image->GetExtent(), this->Image->GetExtent(), 6) &&
+      same(image->GetOrigin(), this->Image->GetOrigin(), 3) &&
+      same(image->GetSpacing(), this->Image->GetSpacing(), 3) &&
+      same(image->GetDirectionMatrix()->GetData(), this->Image->GetDirectionMatrix()->GetData(), 9);
+  }
+
   vtkNew<vtkImageData> Image;
   vtkNew<vtkTrivialProducer> Producer;
-  std::array<vtkMTimeType, 3> State{ 0, 0, 0 };
   vtkDataArray* Array = nullptr; // to compare, never followed
+  vtkMTimeType Time = 0;
+  bool CellData = false;
 };
 }
 
