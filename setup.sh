@@ -14,11 +14,14 @@ packages=(
   libcgal-dev libtet1.5-dev libeigen3-dev zlib1g-dev libgtest-dev              # libraries of our own
   libopenmpi-dev libutfcpp-dev libdouble-conversion-dev libexpat1-dev liblz4-dev liblzma-dev libtbb-dev  # VTK's packages ask
   libpng-dev libjpeg-dev libtiff-dev python3-dev                   #   for the development files of what they were built with
-  libqt5opengl5-dev qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools libqt5svg5-dev # help pages of the plugin
-  python3-numpy                                                    # volumes of the demo and the tests
+  libqt5opengl5-dev qtbase5-dev qttools5-dev qtxmlpatterns5-dev-tools libqt5svg5-dev # help pages and widgets of the plugin
+  libboost-dev libnetcdf-dev libhdf5-openmpi-dev libxml2-dev libglew-dev            #   what ParaView's Qt components name
+  python3-numpy python3-matplotlib                                 # volumes of the demo and the tests; figures
   mpi-default-bin xvfb xauth                                       # pvbatch; a display for pictures and for the application
 )
 test_packages=(
+  dpkg-dev                                                         # makes and tries the Debian package
+  xdotool                                                          # presses a key in the application
   gmsh python3-gmsh calculix-ccx                                   # read the meshes for simulation, and solve with them
 )
 

@@ -77,7 +77,7 @@ vtkSmartPointer<vtkPolyData> LabelSurfaces(
       cubes->SetValue(value++, m);
     }
   }
-  UpdateInner({ { cubes, "Marching cubes", 1.0 } }, filter, monitor);
+  UpdateInner({ { cubes, "Marching cubes", 1.0 } }, filter, {}, monitor);
   return cubes->GetOutput();
 }
 
@@ -338,7 +338,7 @@ std::vector<Vec3> Smoothed(const std::vector<Vec3>& points, const Triangles& tri
   smooth->FeatureEdgeSmoothingOff();
   smooth->NonManifoldSmoothingOn(); // the curves where three materials meet
   smooth->NormalizeCoordinatesOn();
-  UpdateInner({ { smooth, "Smoothing", 1.0 } }, filter, monitor);
+  UpdateInner({ { smooth, "Smoothing", 1.0 } }, filter, {}, monitor);
   if (smooth->GetOutput()->GetNumberOfPoints() != vtkIdType(points.size()))
   {
     throw std::runtime_error("vtkWindowedSincPolyDataFilter changed the number of points.");
@@ -366,7 +366,7 @@ public:
     const double markers = double(this->Pairs.size() - 1);
     decimate->SetTargetReduction(
       std::clamp(1.0 - (double(target) + markers) / (double(this->All.size()) + markers), 0.0, 1.0));
-    UpdateInner({ { decimate, "Decimation", 1.0 } }, filter, monitor);
+    UpdateInner({ { decimate, "Decimation", 1.0 } }, filter, {}, monitor);
     this->ReadBack(decimate->GetOutput());
   }
 

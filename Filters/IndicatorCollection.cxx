@@ -2,6 +2,7 @@
 #include "IndicatorCollection.h"
 
 #include "LabelMeshNames.h"
+#include "ServerPieces.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataAssembly.h>
@@ -135,6 +136,31 @@ LabelMesh::Label BlockLabel(vtkPartitionedDataSetCollection* collection, unsigne
       "'. Connect the output of Label Split, Tighten or Indicator Reconstruct.");
   }
   return label->GetVariantValue(0).ToTypeInt64();
+}
+
+/// Appends a block with a material's name, label and colour.
+void AppendImage(vtkPartitionedDataSetCollection* collection, const Material& material, vtkImageData* image)
+{
+  vtkNew<vtkTypeInt64Array> label;
+  label->SetName(Names::Label);
+  label->InsertNextValue(material.Label);
+  image->GetFieldData()->AddArray(label);
+  AddNumbers(image->GetFieldData(), Names::Color, vtkNew<vtkDoubleArray>(), 3, material.Color.data(), 3);
+
+  const unsigned int n = collection->GetNumberOfPartitionedDataSets();
+  collection->SetNumberOfPartitionedDataSets(n + 1);
+  collection->SetPartition(n, 0, image);
+  collection->GetMetaData(n)->Set(vtkCompositeDataSet::NAME(), material.Name.c_str());
+  vtkDataAssembly* assembly = collection->GetDataAssembly();
+  if (!assembly)
+  {
+    vtkNew<vtkDataAssembly> created;
+    created->SetRootNodeName(Names::IndicatorsRoot);
+    collection->SetDataAssembly(created);
+    assembly = created;
+  }
+  const int node = assembly->AddNode(vtkDataAssembly::MakeValidNodeName(material.Name.c_str()).c_str());
+  assembly->AddDataSetIndex(node, n);
 }
 }
 
@@ -329,26 +355,16 @@ void AppendBlock(
   vtkNew<vtkImageData> image;
   SetFrame(image, frame);
   image->GetPointData()->SetScalars(values);
-  vtkNew<vtkTypeInt64Array> label;
-  label->SetName(Names::Label);
-  label->InsertNextValue(material.Label);
-  image->GetFieldData()->AddArray(label);
-  AddNumbers(image->GetFieldData(), Names::Color, vtkNew<vtkDoubleArray>(), 3, material.Color.data(), 3);
+  AppendImage(collection, material, image);
+}
 
-  const unsigned int n = collection->GetNumberOfPartitionedDataSets();
-  collection->SetNumberOfPartitionedDataSets(n + 1);
-  collection->SetPartition(n, 0, image);
-  collection->GetMetaData(n)->Set(vtkCompositeDataSet::NAME(), material.Name.c_str());
-  vtkDataAssembly* assembly = collection->GetDataAssembly();
-  if (!assembly)
+void AppendEmptyBlocks(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header)
+{
+  for (const Material& material : header.Materials)
   {
-    vtkNew<vtkDataAssembly> created;
-    created->SetRootNodeName(Names::IndicatorsRoot);
-    collection->SetDataAssembly(created);
-    assembly = created;
+    AppendImage(collection, material, vtkNew<vtkImageData>());
   }
-  const int node = assembly->AddNode(vtkDataAssembly::MakeValidNodeName(material.Name.c_str()).c_str());
-  assembly->AddDataSetIndex(node, n);
+  WriteHeader(collection, header);
 }
 
 vtkImageData* BlockImage(vtkPartitionedDataSetCollection* collection, unsigned int n)
@@ -478,6 +494,7 @@ bool PublishedFrame(vtkInformation* inInfo, GridFrame& source, int& padding)
 {
   try
   {
+    inInfo = BehindPostFilters(inInfo);
     if (inInfo->Has(FrameExtentKey()) && inInfo->Has(FrameGeometryKey()))
     {
       const int* e = inInfo->Get(FrameExtentKey());

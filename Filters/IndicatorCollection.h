@@ -67,6 +67,9 @@ CollectionHeader ReadHeader(vtkPartitionedDataSetCollection* collection);
 /// Appends a block on `frame` with its name, label and colour, and `values` as its active array (shared).
 void AppendBlock(
   vtkPartitionedDataSetCollection* collection, const Material& material, const GridFrame& frame, vtkDataArray* values);
+/// The blocks of a collection without samples, for a process that has none of them: each an empty image, with its name,
+/// label and colour; and the header.
+void AppendEmptyBlocks(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header);
 /// The n-th material's image. Throws std::invalid_argument when the block is not one image.
 vtkImageData* BlockImage(vtkPartitionedDataSetCollection* collection, unsigned int n);
 /// Its samples. Throws std::invalid_argument when it has no float32 point array `arrayName`, naming the filter whose

@@ -87,7 +87,7 @@ private:
 };
 }
 
-void UpdateInner(const std::vector<InnerStage>& chain, vtkAlgorithm* outer, const Monitor& monitor)
+void UpdateInner(const std::vector<InnerStage>& chain, vtkAlgorithm* outer, const Piece& piece, const Monitor& monitor)
 {
   double total = 0.0, done = 0.0;
   for (const InnerStage& stage : chain)
@@ -103,7 +103,7 @@ void UpdateInner(const std::vector<InnerStage>& chain, vtkAlgorithm* outer, cons
     stage.Filter->SetAbortExecute(0);
     done += stage.Weight;
   }
-  chain.back().Filter->Update();
+  chain.back().Filter->UpdatePiece(piece.Number, piece.Count, 0);
   // What a filter says that had to work on what a failed one left is of no interest.
   bool stopped = false;
   std::string error;

@@ -4,6 +4,7 @@
 #define InnerFilter_h
 
 #include "Core/Monitor.h"
+#include "ServerPieces.h"
 
 #include <string>
 #include <vector>
@@ -20,12 +21,12 @@ struct InnerStage
   double Weight = 1.0; ///< its share of the time, in any unit
 };
 
-/// Updates the last filter of a chain (all its ports) within a filter's RequestData, and so those before it whose
-/// output it needs and does not have: their progress goes to the monitor under their names, a stop asked of the
+/// Updates a piece of the last filter of a chain (all its ports) within a filter's RequestData, and so those before it
+/// whose output it needs and does not have: their progress goes to the monitor under their names, a stop asked of the
 /// monitor stops them and throws Aborted, their warnings become `outer`'s, and the first error becomes a
 /// std::runtime_error with the words alone. After a stop or an error the whole chain is marked as modified, so that the
 /// next update runs it again.
-void UpdateInner(const std::vector<InnerStage>& chain, vtkAlgorithm* outer, const Monitor& monitor);
+void UpdateInner(const std::vector<InnerStage>& chain, vtkAlgorithm* outer, const Piece& piece, const Monitor& monitor);
 
 /// The sentence in what VTK hands to observers of its errors ("ERROR: In file, line 1\nvtkClass (0x1): the sentence").
 std::string SentenceOf(const char* vtkMessage);

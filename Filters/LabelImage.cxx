@@ -6,9 +6,14 @@
 #include <vtkArrayDispatch.h>
 #include <vtkDataArray.h>
 #include <vtkDataArrayRange.h>
+#include <vtkDataObject.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -212,5 +217,61 @@ void MergeIntoBackground(LabelImage& image, const std::vector<Label>& kept, Labe
     id = renumbered[id];
   }
   image.Labels = merged;
+}
+
+bool PromisedFrame(vtkInformation* inInfo, bool cellData, GridFrame& frame)
+{
+  if (!inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  {
+    return false;
+  }
+  std::array<int, 6> extent;
+  std::copy_n(inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6, extent.begin());
+  Vec3 origin = Vec3::Zero(), spacing = Vec3::Ones();
+  Mat3 direction = Mat3::Identity();
+  if (inInfo->Has(vtkDataObject::ORIGIN()))
+  {
+    origin = Eigen::Map<const Vec3>(inInfo->Get(vtkDataObject::ORIGIN()));
+  }
+  if (inInfo->Has(vtkDataObject::SPACING()))
+  {
+    spacing = Eigen::Map<const Vec3>(inInfo->Get(vtkDataObject::SPACING()));
+  }
+  if (inInfo->Has(vtkDataObject::DIRECTION()))
+  {
+    direction = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(inInfo->Get(vtkDataObject::DIRECTION()));
+  }
+  try
+  {
+    frame = GridFrame(extent, origin, spacing, direction);
+    frame = cellData ? FrameOfCells(frame) : frame;
+  }
+  catch (const std::invalid_argument&)
+  {
+    return false; // an empty image, or one that RequestData will refuse
+  }
+  return true;
+}
+
+bool PromisesCellData(vtkInformation* arrayInfo, vtkInformation* inInfo)
+{
+  const int association = arrayInfo->Get(vtkDataObject::FIELD_ASSOCIATION());
+  const char* name = arrayInfo->Get(vtkDataObject::FIELD_NAME());
+  // Images announce point scalars also when they have none, so the data tell, where there are any.
+  vtkImageData* image = vtkImageData::SafeDownCast(inInfo->Get(vtkDataObject::DATA_OBJECT()));
+  const bool hasData = image && image->GetNumberOfPoints() > 0;
+  const auto present = [&](int where) -> bool
+  {
+    if (hasData)
+    {
+      vtkDataSetAttributes* attributes = image->GetAttributes(where);
+      return name ? attributes->HasArray(name) != 0 : attributes->GetScalars() != nullptr;
+    }
+    return name ? vtkDataObject::GetNamedFieldInformation(inInfo, where, name) != nullptr
+                : vtkDataObject::GetActiveFieldInformation(inInfo, where, vtkDataSetAttributes::SCALARS) != nullptr;
+  };
+  return association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
+    (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS &&
+      !present(vtkDataObject::FIELD_ASSOCIATION_POINTS) && present(vtkDataObject::FIELD_ASSOCIATION_CELLS));
 }
 }

@@ -9,6 +9,7 @@
 
 class vtkDataArray;
 class vtkImageData;
+class vtkInformation;
 
 namespace LabelMesh
 {
@@ -32,6 +33,11 @@ LabelImage ReadLabelImage(vtkImageData* image, vtkDataArray* array, bool cellDat
 
 /// Gives every label that is not in `kept` (ascending) the background's label, which may be new to the image.
 void MergeIntoBackground(LabelImage& image, const std::vector<Label>& kept, Label background);
+
+/// The sample lattice that an image will have, from what is known before there is data. False when nothing is.
+bool PromisedFrame(vtkInformation* inInfo, bool cellData, GridFrame& frame);
+/// Whether the array to process is cell data, as far as can be told before there is data.
+bool PromisesCellData(vtkInformation* arrayInfo, vtkInformation* inInfo);
 }
 
 #endif

@@ -63,6 +63,8 @@ inline constexpr char Normal[] = "Normal";           ///< float64 x 3 (particles
 inline constexpr char BoundaryLabels[] =
   "BoundaryLabels"; ///< cells, int64 x 2: normal points from the first to the second
 inline constexpr char DistanceToVoxels[] = "DistanceToVoxels"; ///< points, float64, world length (error map)
+// ParaView's charts take this column for the x axis by themselves, since its own Histogram writes it.
+inline constexpr char BinExtents[] = "bin_extents";  ///< column, float64: centres of a histogram's bins
 inline constexpr char RadiusRatio[] = "RadiusRatio"; ///< cells, float64: 2 r_in / r_circ; of tetrahedra 3 r_in / r_circ
 }
 

@@ -4,7 +4,9 @@
 #define LabelMesherPipeline_h
 
 #include "FilterSupport.h"
+#include "IndicatorCollection.h"
 #include "InnerFilter.h"
+#include "ServerPieces.h"
 #include "vtkDelaunayLabelMesh.h"
 #include "vtkIndicatorReconstruct.h"
 #include "vtkLabelMesher.h"
@@ -17,6 +19,7 @@
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkTrivialProducer.h>
@@ -37,13 +40,15 @@ public:
   /// The image's structure and the array as its scalars.
   void Set(vtkImageData* image, vtkDataArray* array, bool cellData)
   {
-    const std::array<vtkMTimeType, 3> state = { image->GetMTime(), array ? array->GetMTime() : 0, cellData ? 1u : 0u };
-    if (state == this->State && array == this->Array)
+    // Not the image's own time: ParaView gives a filter a new image around the same array each time it runs.
+    const vtkMTimeType time = array ? array->GetMTime() : 0;
+    if (array == this->Array && time == this->Time && cellData == this->CellData && this->HasStructureOf(image))
     {
       return;
     }
-    this->State = state;
     this->Array = array;
+    this->Time = time;
+    this->CellData = cellData;
     this->Image->Initialize();
     this->Image->CopyStructure(image);
     if (array)
@@ -60,10 +65,20 @@ public:
   vtkAlgorithmOutput* GetOutputPort() { return this->Producer->GetOutputPort(); }
 
 private:
+  bool HasStructureOf(vtkImageData* image) const
+  {
+    const auto same = [](const auto* a, const auto* b, int count) { return std::equal(a, a + count, b); };
+    return same(image->GetExtent(), this->Image->GetExtent(), 6) &&
+      same(image->GetOrigin(), this->Image->GetOrigin(), 3) &&
+      same(image->GetSpacing(), this->Image->GetSpacing(), 3) &&
+      same(image->GetDirectionMatrix()->GetData(), this->Image->GetDirectionMatrix()->GetData(), 9);
+  }
+
   vtkNew<vtkImageData> Image;
   vtkNew<vtkTrivialProducer> Producer;
-  std::array<vtkMTimeType, 3> State{ 0, 0, 0 };
   vtkDataArray* Array = nullptr; // to compare, never followed
+  vtkMTimeType Time = 0;
+  bool CellData = false;
 };
 }
 
@@ -117,8 +132,9 @@ public:
     }
   }
 
-  /// Brings one stage after the other up to date.
-  void Update(vtkAlgorithm* outer, const LabelMesh::Monitor& monitor)
+  /// Brings one stage after the other up to date. Pieces but the first are empty, stage by stage; the first one is the
+  /// same of any number, and the stages need not run again for another.
+  void Update(vtkAlgorithm* outer, const LabelMesh::Piece& piece, const LabelMesh::Monitor& monitor)
   {
     // The first stages run for the one that keeps its output.
     double done = 0.0, next = 0.0;
@@ -129,11 +145,21 @@ public:
       next += stage.Weight;
       if (!stage.Filter->GetReleaseDataFlag())
       {
-        LabelMesh::UpdateInner(chain, outer, monitor.Part(done, next));
+        LabelMesh::UpdateInner(chain, outer, piece.IsFirst() ? LabelMesh::Piece() : piece, monitor.Part(done, next));
         done = next;
         chain.clear();
       }
     }
+  }
+
+  /// The name and the colour of a label, as the user wants them.
+  LabelMesh::Material StyleOf(LabelMesh::Label label) const
+  {
+    LabelMesh::Material material;
+    material.Label = label;
+    material.Name = this->Style->GetMaterialName(label);
+    this->Style->GetMaterialColor(label, material.Color.data());
+    return material;
   }
 
   const Stage* Find(const char* name) const
@@ -144,6 +170,9 @@ public:
   }
 
   LabelMesh::Feed Labels, Bound;
+  /// Holds names and colours, and never runs: they are given to the outputs in the end, so that a change of them runs
+  /// no stage.
+  vtkNew<vtkLabelSplit> Style;
   vtkNew<vtkLabelSplit> Split;
   vtkNew<vtkTighten> Tighten;
   vtkNew<vtkIndicatorReconstruct> Reconstruct;

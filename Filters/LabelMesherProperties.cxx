@@ -24,32 +24,32 @@ vtkIdType vtkLabelMesher::GetLabel(vtkIdType index) const
 
 void vtkLabelMesher::SetMaterialName(vtkIdType label, const char* name)
 {
-  this->Stages->Split->SetMaterialName(label, name);
+  this->Stages->Style->SetMaterialName(label, name);
 }
 
 void vtkLabelMesher::ClearMaterialNames()
 {
-  this->Stages->Split->ClearMaterialNames();
+  this->Stages->Style->ClearMaterialNames();
 }
 
 std::string vtkLabelMesher::GetMaterialName(vtkIdType label) const
 {
-  return this->Stages->Split->GetMaterialName(label);
+  return this->Stages->Style->GetMaterialName(label);
 }
 
 void vtkLabelMesher::SetMaterialColor(vtkIdType label, double red, double green, double blue)
 {
-  this->Stages->Split->SetMaterialColor(label, red, green, blue);
+  this->Stages->Style->SetMaterialColor(label, red, green, blue);
 }
 
 void vtkLabelMesher::ClearMaterialColors()
 {
-  this->Stages->Split->ClearMaterialColors();
+  this->Stages->Style->ClearMaterialColors();
 }
 
 void vtkLabelMesher::GetMaterialColor(vtkIdType label, double color[3]) const
 {
-  this->Stages->Split->GetMaterialColor(label, color);
+  this->Stages->Style->GetMaterialColor(label, color);
 }
 
 void vtkLabelMesher::SetBackgroundLabel(vtkIdType label)
@@ -362,6 +362,16 @@ bool vtkLabelMesher::GetChordCorrection() const
   return this->Stages->Mesh->GetChordCorrection();
 }
 
+void vtkLabelMesher::SetVolumeCorrection(bool on)
+{
+  this->Stages->Mesh->SetVolumeCorrection(on);
+}
+
+bool vtkLabelMesher::GetVolumeCorrection() const
+{
+  return this->Stages->Mesh->GetVolumeCorrection();
+}
+
 void vtkLabelMesher::SetMaterialOpeningRadius(vtkIdType label, double radius)
 {
   this->Stages->Split->SetMaterialOpeningRadius(label, radius);
@@ -420,6 +430,21 @@ double vtkLabelMesher::GetMaterialMaximumLength(vtkIdType label) const
 void vtkLabelMesher::ClearMaterialMaximumLengths()
 {
   this->Stages->Sizing->ClearMaterialMaximumLengths();
+}
+
+void vtkLabelMesher::SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length)
+{
+  this->Stages->Sizing->SetInterfaceMaximumLength(labelA, labelB, length);
+}
+
+double vtkLabelMesher::GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const
+{
+  return this->Stages->Sizing->GetInterfaceMaximumLength(labelA, labelB);
+}
+
+void vtkLabelMesher::ClearInterfaceMaximumLengths()
+{
+  this->Stages->Sizing->ClearInterfaceMaximumLengths();
 }
 
 void vtkLabelMesher::SetTetrahedra(int mode)
@@ -486,6 +511,21 @@ void vtkLabelMesher::SetTetraImprovePasses(int passes)
 int vtkLabelMesher::GetTetraImprovePasses() const
 {
   return this->Stages->Mesh->GetTetraImprovePasses();
+}
+
+void vtkLabelMesher::SetSlideSurface(bool on)
+{
+  this->Stages->Mesh->SetSlideSurface(on);
+}
+
+bool vtkLabelMesher::GetSlideSurface() const
+{
+  return this->Stages->Mesh->GetSlideSurface();
+}
+
+const char* vtkLabelMesher::GetTetrahedraFailure() const
+{
+  return this->Stages->Mesh->GetTetrahedraFailure();
 }
 
 void vtkLabelMesher::SetVolumeGradation(double gradation)

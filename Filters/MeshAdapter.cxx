@@ -241,7 +241,7 @@ vtkSmartPointer<vtkPolyData> SurfaceOf(MaterialId m, const std::vector<Index>& t
   surface->SetPolys(EqualCells(connectivity, 3));
   CopyTuples(mesh->GetPointData(), pointIds, surface->GetPointData());
   CopyTuples(mesh->GetCellData(), cellIds, surface->GetCellData());
-  surface->GetCellData()->AddArray(pairs);
+  surface->GetCellData()->SetScalars(pairs);
   return surface;
 }
 
@@ -413,7 +413,7 @@ void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& head
       i, RadiusRatio(mesh.Vertices[v[0]].Position, mesh.Vertices[v[1]].Position, mesh.Vertices[v[2]].Position));
   }
   output->SetPolys(EqualCells(connectivity, 3));
-  output->GetCellData()->AddArray(pairs);
+  output->GetCellData()->SetScalars(pairs); // what viewers colour by, without being told
   output->GetCellData()->AddArray(ratios);
   AddMaterialSets(vertices, header.Materials, output->GetPointData());
   WriteMaterials(output->GetFieldData(), header.Materials, header.Background);
@@ -448,6 +448,13 @@ void TetrahedraToGrid(const TetraMesh& mesh, const CollectionHeader& header, vtk
   output->GetCellData()->AddArray(labels);
   output->GetCellData()->AddArray(ratios);
   WriteMaterials(output->GetFieldData(), header.Materials, header.Background);
+  auto direction = NewArray<vtkDoubleArray>(Names::SourceDirection, 9, 1);
+  const Mat3& axes = header.Source.Direction();
+  for (int i = 0; i < 9; ++i)
+  {
+    direction->SetValue(i, axes(i / 3, i % 3));
+  }
+  output->GetFieldData()->AddArray(direction);
 }
 
 InterfaceData ReadInterface(vtkPolyData* mesh)
@@ -488,6 +495,26 @@ InterfaceData ReadInterface(vtkPolyData* mesh)
   return data;
 }
 
+void StartMaterials(vtkPartitionedDataSetCollection* output)
+{
+  output->Initialize();
+  vtkNew<vtkDataAssembly> assembly;
+  assembly->Initialize();
+  assembly->SetRootNodeName(Names::SurfacesRoot);
+  output->SetDataAssembly(assembly);
+}
+
+void AppendMaterial(const Material& material, vtkDataSet* piece, vtkPartitionedDataSetCollection* output)
+{
+  AddMaterialFields(material, piece->GetFieldData());
+  const unsigned int block = output->GetNumberOfPartitionedDataSets();
+  output->SetPartition(block, 0, piece);
+  output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), material.Name.c_str());
+  vtkDataAssembly* assembly = output->GetDataAssembly();
+  const int node = assembly->AddNode(vtkDataAssembly::MakeValidNodeName(material.Name.c_str()).c_str());
+  assembly->AddDataSetIndex(node, block);
+}
+
 void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output)
 {
   const InterfaceData interface = ReadInterface(interfaceMesh);
@@ -501,11 +528,7 @@ void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollec
       triangles[pair[1]].push_back(Index(t));
     }
   }
-  output->Initialize();
-  vtkNew<vtkDataAssembly> assembly;
-  assembly->Initialize();
-  assembly->SetRootNodeName(Names::SurfacesRoot);
-  unsigned int block = 0;
+  StartMaterials(output);
   std::vector<Index> numbers(interface.Points.size(), -1);
   for (std::size_t m = 0; m < interface.Materials.size(); ++m)
   {
@@ -515,14 +538,8 @@ void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollec
       continue;
     }
     const auto surface = SurfaceOf(MaterialId(m), triangles[m], interface, interfaceMesh, numbers);
-    AddMaterialFields(material, surface->GetFieldData());
-    output->SetPartition(block, 0, surface);
-    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), material.Name.c_str());
-    const int node = assembly->AddNode(vtkDataAssembly::MakeValidNodeName(material.Name.c_str()).c_str());
-    assembly->AddDataSetIndex(node, block);
-    ++block;
+    AppendMaterial(material, surface, output);
   }
-  output->SetDataAssembly(assembly);
   WriteMaterials(output->GetFieldData(), interface.Materials, interface.Background);
 }
 }

@@ -11,6 +11,7 @@
 
 #include <vector>
 
+class vtkDataSet;
 class vtkPartitionedDataSetCollection;
 class vtkPolyData;
 class vtkUnstructuredGrid;
@@ -27,21 +28,27 @@ std::vector<Particle> ParticlesFromPolyData(vtkPolyData* input, const Collection
 void CurvesToPolyData(const std::vector<Curve>& curves, const std::vector<Particle>& particles,
   const CollectionHeader& header, vtkPolyData* output);
 
-/// Triangles with cell arrays BoundaryLabels and RadiusRatio and point arrays CellDimension, NumberOfMaterials,
-/// Materials. Turns triangles over for mirrored frames and orders each pair as the contract says: the background label
-/// second, else ascending. Field data as WriteMaterials.
+/// Triangles with cell arrays BoundaryLabels (the active scalars) and RadiusRatio and point arrays CellDimension,
+/// NumberOfMaterials, Materials. Turns triangles over for mirrored frames and orders each pair as the contract says:
+/// the background label second, else ascending. Field data as WriteMaterials.
 void InterfaceToPolyData(const InterfaceMesh& mesh, const CollectionHeader& header, vtkPolyData* output);
 
 /// Tetrahedra with cell arrays Label and RadiusRatio; the points of the interface come first, with the bits that
-/// InterfaceToPolyData gives them. Field data as WriteMaterials.
+/// InterfaceToPolyData gives them. Field data as WriteMaterials, and SourceDirection.
 void TetrahedraToGrid(const TetraMesh& mesh, const CollectionHeader& header, vtkUnstructuredGrid* output);
 
 /// One closed, outward-oriented vtkPolyData per label that is not the background, ascending, NAME and field data Label
 /// and Color, with the interface's own points (one where a surface touches itself stands there once for each fan of its
 /// triangles); from any interface mesh that keeps the BoundaryLabels contract. A
 /// material without triangles has an empty block. Point and cell arrays are kept; BoundaryLabels is (own label, the
-/// other side's), so that here too the normal points from the first to the second. Throws as ReadInterface does.
+/// other side's), the active scalars, so that here too the normal points from the first to the second. Throws as
+/// ReadInterface does.
 void SurfacesOfMaterials(vtkPolyData* interfaceMesh, vtkPartitionedDataSetCollection* output);
+
+/// Makes an empty collection of meshes, a block per material, and appends to it: with the material's name, field data
+/// Label and Color, and a node of the assembly.
+void StartMaterials(vtkPartitionedDataSetCollection* output);
+void AppendMaterial(const Material& material, vtkDataSet* piece, vtkPartitionedDataSetCollection* output);
 
 /// An interface mesh in Core's terms, in world coordinates.
 struct InterfaceData

@@ -140,7 +140,7 @@ std::vector<FaceSet> FindFaces(
 MeshSets FindSets(const TetraData& data, const NameRules& rules)
 {
   MeshSets sets;
-  sets.Patches = FindPatches(data.Mesh, data.Background);
+  sets.Patches = FindPatches(data.Mesh, data.Background, data.Axes);
   sets.Elements = FindElements(data, rules);
   sets.Faces = FindFaces(sets.Patches, data.Materials, rules);
   return sets;

@@ -8,6 +8,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellTypes.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
@@ -58,6 +59,22 @@ std::vector<Label> ReadLabels(vtkUnstructuredGrid* grid)
   const auto labels = As<vtkTypeInt64Array>(array);
   const vtkTypeInt64* values = labels->GetPointer(0);
   return std::vector<Label>(values, values + grid->GetNumberOfCells());
+}
+
+Mat3 ReadAxes(vtkFieldData* fieldData)
+{
+  vtkDataArray* array = fieldData->GetArray(Names::SourceDirection);
+  Mat3 axes = Mat3::Identity();
+  if (array && array->GetNumberOfValues() == 9)
+  {
+    const auto numbers = As<vtkDoubleArray>(array);
+    for (int i = 0; i < 9; ++i)
+    {
+      axes(i / 3, i % 3) = numbers->GetPointer(0)[i];
+    }
+  }
+  // A direction of something else is not taken for one.
+  return (axes.transpose() * axes).isIdentity(1e-4) ? axes : Mat3(Mat3::Identity());
 }
 
 /// The corners, and the points that are one, in their order.
@@ -124,6 +141,7 @@ TetraData ReadTetrahedra(vtkUnstructuredGrid* grid)
     data.FlatTetrahedra = OrientTetrahedra(data.Mesh);
   }
   data.Background = FindMaterial(data.Materials, background);
+  data.Axes = ReadAxes(fieldData);
   return data;
 }
 }

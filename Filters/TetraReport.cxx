@@ -22,9 +22,6 @@
 
 namespace LabelMesh
 {
-namespace
-{
-/// The label of each cell; not through double, which cannot hold all of them.
 std::vector<Label> LabelsOf(vtkUnstructuredGrid* grid)
 {
   std::vector<Label> labels(static_cast<std::size_t>(grid->GetNumberOfCells()));
@@ -38,7 +35,7 @@ std::vector<Label> LabelsOf(vtkUnstructuredGrid* grid)
     throw std::invalid_argument(std::string("The tetrahedra have no cell array '") + Names::Label +
       "' of one component. Connect the tetrahedra of Delaunay Label Mesh or Label Mesher.");
   }
-  vtkNew<vtkTypeInt64Array> exact;
+  vtkNew<vtkTypeInt64Array> exact; // not through double, which cannot hold all labels
   exact->DeepCopy(array);
   std::copy(exact->GetPointer(0), exact->GetPointer(0) + labels.size(), labels.begin());
   return labels;
@@ -71,6 +68,8 @@ std::vector<Material> MaterialsOf(vtkFieldData* fieldData, const std::vector<Lab
   return materials;
 }
 
+namespace
+{
 /// Rows of the table in the order of materials.
 template <typename Array, typename Get>
 void AddColumn(vtkTable* table, const char* name, std::size_t rows, const Get& get)

@@ -8,11 +8,17 @@
 
 #include <vector>
 
+class vtkFieldData;
 class vtkTable;
 class vtkUnstructuredGrid;
 
 namespace LabelMesh
 {
+/// The label of each cell. Throws std::invalid_argument with a sentence when there are none.
+std::vector<Label> LabelsOf(vtkUnstructuredGrid* grid);
+/// Those of the field data and of the cells, ascending; without the background where no cell has it.
+std::vector<Material> MaterialsOf(vtkFieldData* fieldData, const std::vector<Label>& labels);
+
 struct TetraReport
 {
   std::vector<Material> Materials; ///< ascending; those with tetrahedra, and those of the field data

@@ -48,15 +48,6 @@ void PublishImage(vtkInformation* outInfo, const GridFrame* frame)
   }
 }
 
-void RequestWholeExtent(vtkInformation* inInfo)
-{
-  if (inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    inInfo->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-      inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-  }
-}
-
 void AddImageArray(vtkImageData* image, const char* name, const std::vector<float>& values)
 {
   vtkNew<vtkFloatArray> array;

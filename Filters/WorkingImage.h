@@ -20,9 +20,6 @@ bool FindFrame(vtkAlgorithm* filter, vtkInformation* inInfo, GridFrame& source, 
 /// Whole extent, origin, spacing and direction of an image output; an empty one when `frame` is null.
 void PublishImage(vtkInformation* outInfo, const GridFrame* frame);
 
-/// Asks an image input for all it has.
-void RequestWholeExtent(vtkInformation* inInfo);
-
 /// Adds a float32 point array to an image whose extent is set.
 void AddImageArray(vtkImageData* image, const char* name, const std::vector<float>& values);
 }

@@ -8,6 +8,7 @@
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
 #include "MeshAdapter.h"
+#include "ServerPieces.h"
 
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
@@ -21,6 +22,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 vtkStandardNewMacro(vtkDelaunayLabelMesh);
@@ -47,6 +49,35 @@ std::vector<InnerPoint> TakeInside(std::vector<Particle>& particles)
     std::remove_if(particles.begin(), particles.end(), [](const Particle& p) { return p.CellDimension == 3; }),
     particles.end());
   return inside;
+}
+
+/// Fills the mesh with tetrahedra and improves them. Vertices of the mesh that move for their sake move in it too.
+TetraResult FillAndImprove(const std::vector<InnerPoint>& inside, MaterialId background, const TetraOptions& fill,
+  const TetraImproveOptions& improve, InterfaceMesh& mesh, vtkIdType& interfaceMoves, const Monitor& monitor)
+{
+  TetraResult filled = FillWithTetrahedra(mesh, background, inside, fill, monitor.Part(0.0, 0.7));
+  if (!filled.Mesh.Corners.empty() && improve.Passes > 0)
+  {
+    interfaceMoves = ImproveTetrahedra(filled.Mesh, improve, monitor.Part(0.7, 1.0)).Slides;
+    TakePositions(filled.Mesh, mesh);
+  }
+  return filled;
+}
+
+/// TightVolumes, with the background's left open; empty where the collection does not say.
+std::vector<double> WantedVolumes(vtkPartitionedDataSetCollection* collection, const CollectionHeader& header)
+{
+  vtkDataArray* const tight = collection->GetFieldData()->GetArray(Names::TightVolumes);
+  if (!tight || std::size_t(tight->GetNumberOfTuples()) != header.Materials.size())
+  {
+    return {};
+  }
+  std::vector<double> wanted;
+  for (std::size_t m = 0; m < header.Materials.size(); ++m)
+  {
+    wanted.push_back(header.Materials[m].Label == header.Background ? 0.0 : tight->GetComponent(vtkIdType(m), 0));
+  }
+  return wanted;
 }
 }
 
@@ -76,11 +107,19 @@ int vtkDelaunayLabelMesh::FillOutputPortInformation(int port, vtkInformation* in
 {
   const char* const types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkUnstructuredGrid" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
+  PromiseFirstPiece(info);
+  return 1;
+}
+
+int vtkDelaunayLabelMesh::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  RequestAllPromised(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 
 int vtkDelaunayLabelMesh::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPolyData* particles = vtkPolyData::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* collection = vtkPartitionedDataSetCollection::GetData(inputVector[1], 0);
@@ -93,18 +132,21 @@ int vtkDelaunayLabelMesh::RequestData(
       MeshResult result;
       std::vector<InnerPoint> inside;
       MaterialId background = NoMaterial;
-      if (particles->GetNumberOfPoints() > 0)
+      TetraImproveOptions improve;
+      if (particles->GetNumberOfPoints() > 0 && RequestedPiece(request, outputVector).IsFirst())
       {
         monitor.Step(0.0, "Reading the particles");
         std::vector<Particle> sites = ParticlesFromPolyData(particles, header);
         inside = TakeInside(sites);
         const IndicatorSet indicators = MakeIndicatorSet(collection, header);
         background = indicators.Background();
+        improve.Slide.Box = indicators.Border();
         MeshOptions options;
         options.RepairRounds = this->RepairRounds;
         options.ImprovePasses = this->ImprovePasses;
         options.RepairBelow = this->RepairBelow;
         options.CorrectChords = this->ChordCorrection;
+        options.WantedVolumes = this->VolumeCorrection ? WantedVolumes(collection, header) : std::vector<double>();
         result = MeshInterfaces(
           indicators, std::move(sites), options, monitor.Part(0.05, this->Tetrahedra == Off ? 0.9 : 0.5));
       }
@@ -127,13 +169,9 @@ int vtkDelaunayLabelMesh::RequestData(
                    << " of its vertices were left as they were, since improved triangles there cut others. A smaller "
                       "Epsilon, FeatureSizeFloor or MinimumLength, or more RepairRounds may help.");
       }
-      InterfaceToPolyData(result.Mesh, header, output);
-      vtkNew<vtkTypeInt64Array> kept;
-      kept->SetName(Names::KeptFromCutting);
-      kept->InsertNextValue(result.KeptFromCutting);
-      output->GetFieldData()->AddArray(kept);
-      SurfacesOfMaterials(output, surfaces);
       TetraResult filled;
+      this->TetrahedraFailure.clear();
+      this->InterfaceMoves = 0;
       if (this->Tetrahedra != Off)
       {
         TetraOptions fill;
@@ -142,14 +180,26 @@ int vtkDelaunayLabelMesh::RequestData(
         fill.RadiusEdgeRatio = this->RadiusEdgeRatio;
         fill.MinimumDihedral = this->MinimumDihedral;
         inside.resize(fill.Refine ? 0 : inside.size());
-        filled = FillWithTetrahedra(result.Mesh, background, inside, fill, monitor.Part(0.6, 0.85));
-      }
-      if (!filled.Mesh.Corners.empty() && this->TetraImprovePasses > 0)
-      {
-        TetraImproveOptions improve;
         improve.Passes = this->TetraImprovePasses;
-        ImproveTetrahedra(filled.Mesh, improve, monitor.Part(0.85, 0.95));
+        improve.Slide.Rounds = this->SlideSurface ? improve.Slide.Rounds : 0;
+        improve.Slide.LeastRatio = std::max(improve.Slide.LeastRatio, result.WorstRatio);
+        try
+        {
+          filled = FillAndImprove(
+            inside, background, fill, improve, result.Mesh, this->InterfaceMoves, monitor.Part(0.55, 0.95));
+        }
+        catch (const std::runtime_error& problem)
+        {
+          this->TetrahedraFailure = problem.what();
+          vtkWarningMacro(<< this->TetrahedraFailure);
+        }
       }
+      InterfaceToPolyData(result.Mesh, header, output);
+      vtkNew<vtkTypeInt64Array> kept;
+      kept->SetName(Names::KeptFromCutting);
+      kept->InsertNextValue(result.KeptFromCutting);
+      output->GetFieldData()->AddArray(kept);
+      SurfacesOfMaterials(output, surfaces);
       this->InnerPointsLeftOut = filled.LeftOut;
       this->InnerPointsAdded = filled.Added;
       this->CircumcentresInserted = filled.Inserted;
@@ -165,14 +215,18 @@ void vtkDelaunayLabelMesh::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ImprovePasses: " << this->ImprovePasses << "\n";
   os << indent << "RepairBelow: " << this->RepairBelow << "\n";
   os << indent << "ChordCorrection: " << this->ChordCorrection << "\n";
+  os << indent << "VolumeCorrection: " << this->VolumeCorrection << "\n";
   os << indent << "Tetrahedra: " << this->Tetrahedra << "\n";
   os << indent << "RefinementRounds: " << this->RefinementRounds << "\n";
   os << indent << "RadiusEdgeRatio: " << this->RadiusEdgeRatio << "\n";
   os << indent << "MinimumDihedral: " << this->MinimumDihedral << "\n";
   os << indent << "TetraImprovePasses: " << this->TetraImprovePasses << "\n";
+  os << indent << "SlideSurface: " << this->SlideSurface << "\n";
   os << indent << "InnerPointsLeftOut: " << this->InnerPointsLeftOut << "\n";
   os << indent << "InnerPointsAdded: " << this->InnerPointsAdded << "\n";
   os << indent << "CircumcentresInserted: " << this->CircumcentresInserted << "\n";
+  os << indent << "InterfaceMoves: " << this->InterfaceMoves << "\n";
+  os << indent << "TetrahedraFailure: " << this->TetrahedraFailure << "\n";
   os << indent << "NumberOfTetrahedra: " << this->NumberOfTetrahedra << "\n";
   os << indent << "RoundsDone: " << this->RoundsDone << "\n";
   os << indent << "WrongFaces: " << this->WrongFaces << "\n";

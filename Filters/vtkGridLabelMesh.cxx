@@ -5,6 +5,7 @@
 #include "GridMesh.h"
 #include "LabelImage.h"
 #include "MeshAdapter.h"
+#include "ServerPieces.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -117,23 +118,19 @@ int vtkGridLabelMesh::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkGridLabelMesh::FillOutputPortInformation(int port, vtkInformation* info)
 {
+  PromiseFirstPiece(info);
   info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPolyData" : "vtkPartitionedDataSetCollection");
   return 1;
 }
 
 int vtkGridLabelMesh::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  vtkInformation* info = inputVector[0]->GetInformationObject(0);
-  if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-  }
+  RequestAll(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
 int vtkGridLabelMesh::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
@@ -141,6 +138,7 @@ int vtkGridLabelMesh::RequestData(
   return RunStage(this,
     [&](const Monitor& monitor)
     {
+      RequireWhole(inputVector[0]->GetInformationObject(0), input);
       monitor.Step(0.0, "Reading labels");
       CollectionHeader header;
       header.Background = this->BackgroundLabel;
@@ -155,8 +153,11 @@ int vtkGridLabelMesh::RequestData(
         UseIdsOf(header, image);
         const auto background = std::find_if(header.Materials.begin(), header.Materials.end(),
           [&](const Material& m) { return m.Label == header.Background; });
-        mesh = MeshGrid(image, MaterialId(background - header.Materials.begin()),
-          { this->SmoothingIterations, this->PassBand, this->TargetTriangles }, this, monitor.Part(0.05, 0.95));
+        if (RequestedPiece(request, outputVector).IsFirst())
+        {
+          mesh = MeshGrid(image, MaterialId(background - header.Materials.begin()),
+            { this->SmoothingIterations, this->PassBand, this->TargetTriangles }, this, monitor.Part(0.05, 0.95));
+        }
       }
       InterfaceToPolyData(mesh, header, output);
       SurfacesOfMaterials(output, surfaces);

@@ -7,6 +7,7 @@
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
+#include "ServerPieces.h"
 #include "WorkingImage.h"
 
 #include <vtkDataObject.h>
@@ -226,6 +227,7 @@ int vtkIndicatorReconstruct::FillInputPortInformation(int, vtkInformation* info)
 
 int vtkIndicatorReconstruct::FillOutputPortInformation(int port, vtkInformation* info)
 {
+  PromiseFirstPiece(info);
   info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkImageData");
   return 1;
 }
@@ -245,17 +247,31 @@ int vtkIndicatorReconstruct::RequestInformation(
   return 1;
 }
 
+int vtkIndicatorReconstruct::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  RequestAllPromised(inputVector, this->GetNumberOfInputPorts());
+  return 1;
+}
+
 int vtkIndicatorReconstruct::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
   vtkImageData* image = vtkImageData::GetData(outputVector, 1);
-  const bool givenUp = IsGivenUp(inputVector[0]->GetInformationObject(0));
+  const bool first = RequestedPiece(request, outputVector).IsFirst();
+  const bool givenUp = first && IsGivenUp(inputVector[0]->GetInformationObject(0));
   const int done = RunStage(this,
     [&](const Monitor& monitor)
     {
       const CollectionHeader header = ReadHeader(input);
+      if (!first)
+      {
+        AppendEmptyBlocks(output, header);
+        AttachLabels(image, RebuiltLabels());
+        return;
+      }
       const std::vector<MaterialId> inspected =
         header.Materials.empty() ? std::vector<MaterialId>() : FindMaterials(this->InspectedLabels, header);
       Reconstruct(input, givenUp, header, this->Perturbation, output, monitor.Part(0.0, 0.4));

@@ -3,8 +3,10 @@
 
 #include "FilterSupport.h"
 #include "LabelMeshNames.h"
+#include "RatioHistogram.h"
 #include "ReportFacts.h"
 #include "ReportTables.h"
+#include "ServerPieces.h"
 #include "TetraReport.h"
 
 #include <vtkDataArray.h>
@@ -46,7 +48,7 @@ void FillErrorMap(vtkPolyData* mesh, const std::vector<double>& distances, vtkPo
 vtkLabelMeshReport::vtkLabelMeshReport()
 {
   this->SetNumberOfInputPorts(6);
-  this->SetNumberOfOutputPorts(6);
+  this->SetNumberOfOutputPorts(7);
   this->SetInputArrayToProcess(
     0, 1, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS, vtkDataSetAttributes::SCALARS);
 }
@@ -65,32 +67,32 @@ int vtkLabelMeshReport::FillInputPortInformation(int port, vtkInformation* info)
 
 int vtkLabelMeshReport::FillOutputPortInformation(int port, vtkInformation* info)
 {
+  PromiseFirstPiece(info);
   info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 3 ? "vtkPolyData" : "vtkTable");
   return 1;
 }
 
-int vtkLabelMeshReport::RequestUpdateExtent(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelMeshReport::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  // Counting needs whole images, whatever part of a table is asked for.
-  for (const int port : { 1, 3 })
-  {
-    vtkInformation* info = inputVector[port]->GetInformationObject(0);
-    if (info && info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-    {
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(),
-        info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6);
-    }
-  }
-  return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  RequestAllPromised(inputVector, this->GetNumberOfInputPorts());
+  return 1;
 }
 
 int vtkLabelMeshReport::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   return RunStage(this,
     [&](const Monitor& monitor)
     {
+      void (*const fill[])(vtkTable*, const ReportFacts&) = { FillMaterials, FillInterfaces, FillLosses };
+      if (!RequestedPiece(request, outputVector).IsFirst())
+      {
+        for (int port = 0; port < 3; ++port)
+        {
+          fill[port](vtkTable::GetData(outputVector, port), ReportFacts()); // the columns, and no rows
+        }
+        return;
+      }
       ReportInputs inputs;
       inputs.Mesh = vtkPolyData::GetData(inputVector[0], 0);
       inputs.Volume = vtkImageData::GetData(inputVector[1], 0);
@@ -105,7 +107,6 @@ int vtkLabelMeshReport::RequestData(
         throw std::invalid_argument("The error map needs the label volume. Connect it to input port 1.");
       }
       const ReportFacts facts = FindFacts(inputs, monitor.Part(0.0, 0.9));
-      void (*const fill[])(vtkTable*, const ReportFacts&) = { FillMaterials, FillInterfaces, FillLosses };
       for (int port = 0; port < 3; ++port)
       {
         vtkTable* table = vtkTable::GetData(outputVector, port);
@@ -118,6 +119,7 @@ int vtkLabelMeshReport::RequestData(
         FillTetrahedra(vtkTable::GetData(outputVector, 4), report);
         FillDihedrals(vtkTable::GetData(outputVector, 5), report);
       }
+      FillRadiusRatios(vtkTable::GetData(outputVector, 6), facts.Mesh, vtkUnstructuredGrid::GetData(inputVector[5], 0));
       if (this->ErrorMap)
       {
         monitor.Step(0.9, "Measuring distances");
@@ -145,6 +147,11 @@ vtkTable* vtkLabelMeshReport::GetTetrahedraOutput()
 vtkTable* vtkLabelMeshReport::GetDihedralsOutput()
 {
   return vtkTable::SafeDownCast(this->GetOutputDataObject(5));
+}
+
+vtkTable* vtkLabelMeshReport::GetRadiusRatiosOutput()
+{
+  return vtkTable::SafeDownCast(this->GetOutputDataObject(6));
 }
 
 void vtkLabelMeshReport::PrintSelf(ostream& os, vtkIndent indent)

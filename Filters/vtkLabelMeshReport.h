@@ -87,6 +87,11 @@
  * without input 5:
  *  - "From", "To" (double, degrees); "Angles" (int64) of all, "Angles_<label>" (int64) of each material
  *
+ * Output port 6 (vtkTable), 50 rows: how many cells have a radius ratio in each fiftieth of 0 to 1:
+ *  - "bin_extents" (double): the middle of the bin, under the name that ParaView's charts take for the x axis
+ *  - "Triangles" (int64), without those of one label on both sides; with input 5 "Tetrahedra" (int64), where those of
+ * no or negative volume are in the first row
+ *
  * Field data of the tables of ports 0 to 2 (one value each): "Points", "Triangles" (int64, each triangle once),
  * "MinRadiusRatio", "FirstPercentileRadiusRatio" (one triangle in a hundred is below), "MeanRadiusRatio" (double),
  * "WorstTriangle", "WorstPosition", "DuplicateTriangles" (more triangles than one on the same three points),
@@ -122,9 +127,10 @@ public:
   vtkBooleanMacro(ErrorMap, vtkTypeBool);
   ///@}
 
-  /// Output ports 4 and 5.
+  /// Output ports 4, 5 and 6.
   vtkTable* GetTetrahedraOutput();
   vtkTable* GetDihedralsOutput();
+  vtkTable* GetRadiusRatiosOutput();
 
   /// Output port 3.
   vtkPolyData* GetErrorMapOutput();

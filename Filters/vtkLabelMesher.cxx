@@ -6,7 +6,9 @@
 #include "InnerFilter.h"
 #include "LabelMeshNames.h"
 #include "LabelMesherPipeline.h"
+#include "MaterialStyle.h"
 #include "RebuiltVoxels.h"
+#include "ServerPieces.h"
 #include "WorkingImage.h"
 
 #include <vtkCellData.h>
@@ -50,7 +52,7 @@ vtkLabelMesher::~vtkLabelMesher() = default;
 vtkMTimeType vtkLabelMesher::GetMTime()
 {
   // Properties live in the stages.
-  vtkMTimeType time = this->Superclass::GetMTime();
+  vtkMTimeType time = std::max(this->Superclass::GetMTime(), this->Stages->Style->GetMTime());
   for (const Pipeline::Stage& stage : this->Stages->All)
   {
     time = std::max(time, stage.Filter->GetMTime());
@@ -78,6 +80,40 @@ int vtkLabelMesher::GetStageRuns(const char* name) const
 {
   const Pipeline::Stage* stage = this->Stages->Find(name);
   return stage ? stage->Runs : 0;
+}
+
+double* vtkLabelMesher::GetAllStageSeconds()
+{
+  std::transform(this->Stages->All.begin(), this->Stages->All.end(), this->AllStageSeconds,
+    [](const Pipeline::Stage& stage) { return stage.Seconds; });
+  return this->AllStageSeconds;
+}
+
+int* vtkLabelMesher::GetAllStageRuns()
+{
+  std::transform(this->Stages->All.begin(), this->Stages->All.end(), this->AllStageRuns,
+    [](const Pipeline::Stage& stage) { return stage.Runs; });
+  return this->AllStageRuns;
+}
+
+vtkIdType vtkLabelMesher::GetPredictedParticles() const
+{
+  return this->Stages->Sizing->GetPredictedParticles();
+}
+
+vtkIdType vtkLabelMesher::GetNumberOfParticles()
+{
+  return this->GetParticles()->GetNumberOfPoints();
+}
+
+vtkIdType vtkLabelMesher::GetNumberOfTriangles()
+{
+  return this->GetOutput()->GetNumberOfPolys();
+}
+
+vtkIdType vtkLabelMesher::GetNumberOfTetrahedra()
+{
+  return this->GetTetrahedraOutput()->GetNumberOfCells();
 }
 
 vtkPartitionedDataSetCollection* vtkLabelMesher::GetSurfaces()
@@ -117,6 +153,7 @@ int vtkLabelMesher::FillOutputPortInformation(int port, vtkInformation* info)
   const char* const types[] = { "vtkPolyData", "vtkPartitionedDataSetCollection", "vtkPolyData", "vtkPolyData",
     "vtkUnstructuredGrid" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
+  LabelMesh::PromiseFirstPiece(info);
   return 1;
 }
 
@@ -126,13 +163,14 @@ int vtkLabelMesher::RequestUpdateExtent(vtkInformation*, vtkInformationVector** 
   {
     if (inputVector[port]->GetNumberOfInformationObjects() > 0)
     {
-      LabelMesh::RequestWholeExtent(inputVector[port]->GetInformationObject(0));
+      LabelMesh::RequestAll(inputVector[port]->GetInformationObject(0));
     }
   }
   return 1;
 }
 
-int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelMesher::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   using namespace LabelMesh;
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
@@ -140,12 +178,13 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
   return RunStage(this,
     [&](const Monitor& monitor)
     {
+      RequireWhole(inputVector[0]->GetInformationObject(0), input);
       int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
       vtkDataArray* labels = this->GetInputArrayToProcess(0, inputVector, association);
       Pipeline& stages = *this->Stages;
       stages.Labels.Set(input, labels, association == vtkDataObject::FIELD_ASSOCIATION_CELLS);
       stages.SetBound(bound, bound ? this->GetInputArrayToProcess(1, inputVector) : nullptr);
-      stages.Update(this, monitor);
+      stages.Update(this, RequestedPiece(request, outputVector), monitor);
       vtkDataObject::GetData(outputVector, 0)->ShallowCopy(stages.Mesh->GetOutputDataObject(0));
       vtkDataObject* surfaces = vtkDataObject::GetData(outputVector, 1);
       surfaces->ShallowCopy(stages.Mesh->GetOutputDataObject(1));
@@ -173,6 +212,11 @@ int vtkLabelMesher::RequestData(vtkInformation*, vtkInformationVector** inputVec
         MergeIntoBackground(volume, meshed, this->GetBackgroundLabel());
         WriteRebuiltVoxels(
           surfaces->GetFieldData(), volume, stages.Reconstruct->GetLabelImage(), this->GetBackgroundLabel());
+      }
+      for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+      {
+        StyleMaterials(
+          vtkDataObject::GetData(outputVector, port), [&stages](Label label) { return stages.StyleOf(label); });
       }
     });
 }

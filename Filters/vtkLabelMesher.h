@@ -58,7 +58,8 @@ public:
   ///@}
 
   ///@{
-  /// vtkLabelSplit: names and colours (0 to 1) of materials.
+  /// vtkLabelSplit: names and colours (0 to 1) of materials. A change of them runs no stage again; warnings of the stages
+  /// use the default names.
   void SetMaterialName(vtkIdType label, const char* name);
   void ClearMaterialNames();
   std::string GetMaterialName(vtkIdType label) const;
@@ -148,7 +149,7 @@ public:
   ///@}
 
   ///@{
-  /// vtkSizingField: edge length over feature size (0.7); the least feature size, voxels (0.8); how far edges may stay
+  /// vtkSizingField: edge length over feature size (0.65); the least feature size, voxels (0.8); how far edges may stay
   /// beside curved surfaces, voxels (0.2); growth of length (0.4).
   void SetEpsilon(double epsilon);
   double GetEpsilon() const;
@@ -172,6 +173,13 @@ public:
   ///@}
 
   ///@{
+  /// vtkSizingField: bounds of the edge length, world units, between two materials.
+  void SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length);
+  double GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const;
+  void ClearInterfaceMaximumLengths();
+  ///@}
+
+  ///@{
   /// vtkSizingField: about how many triangles to make (0: as the other properties say).
   void SetTargetTriangles(vtkIdType triangles);
   vtkIdType GetTargetTriangles() const;
@@ -187,7 +195,8 @@ public:
 
   ///@{
   /// vtkDelaunayLabelMesh: rounds of repair at most (8); passes of improvement (3); the radius ratio below which a
-  /// triangle is mended (0.75); whether faces, not vertices, lie on the interfaces (on).
+  /// triangle is mended (0.75); whether faces, not vertices, lie on the interfaces (on);
+  /// whether each material encloses its smoothed volume (on).
   void SetRepairRounds(int rounds);
   int GetRepairRounds() const;
   void SetImprovePasses(int passes);
@@ -196,6 +205,8 @@ public:
   double GetRepairBelow() const;
   void SetChordCorrection(bool on);
   bool GetChordCorrection() const;
+  void SetVolumeCorrection(bool on);
+  bool GetVolumeCorrection() const;
   ///@}
 
   ///@{
@@ -216,6 +227,11 @@ public:
   /// Passes of improvement over badly shaped tetrahedra (10).
   void SetTetraImprovePasses(int passes);
   int GetTetraImprovePasses() const;
+  /// Whether vertices of the interface move a little where tetrahedra are slivers without (on).
+  void SetSlideSurface(bool on);
+  bool GetSlideSurface() const;
+  /// After an update: why tetrahedra that were asked for are missing; empty where they are not.
+  const char* GetTetrahedraFailure() const;
   ///@}
 
   ///@{
@@ -240,6 +256,21 @@ public:
   const char* GetStageName(int stage) const;
   double GetStageSeconds(const char* name) const;
   int GetStageRuns(const char* name) const;
+  ///@}
+
+  ///@{
+  /// The same of all six, in order.
+  double* GetAllStageSeconds() VTK_SIZEHINT(6);
+  int* GetAllStageRuns() VTK_SIZEHINT(6);
+  ///@}
+
+  ///@{
+  /// Of the last run: about how many particles the sizing predicted for the interfaces, how many there are, those
+  /// inside the materials too, and how many triangles and tetrahedra came out.
+  vtkIdType GetPredictedParticles() const;
+  vtkIdType GetNumberOfParticles();
+  vtkIdType GetNumberOfTriangles();
+  vtkIdType GetNumberOfTetrahedra();
   ///@}
 
   ///@{
@@ -269,6 +300,8 @@ private:
 
   class Pipeline;
   std::unique_ptr<Pipeline> Stages;
+  double AllStageSeconds[6] = { 0.0, 0.0, 0.0, 0.0, 0.0, 0.0 };
+  int AllStageRuns[6] = { 0, 0, 0, 0, 0, 0 };
 };
 
 #endif

@@ -8,7 +8,7 @@
 #include "LabelMeshNames.h"
 #include "LabelPreparation.h"
 #include "MemoryEstimate.h"
-#include "WorkingImage.h"
+#include "ServerPieces.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellData.h>
@@ -24,7 +24,6 @@
 #include <vtkObjectFactory.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPointData.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -108,64 +107,6 @@ double RadiusIn(const Lattice& lattice, const char* what, double voxels)
   return voxels * lattice.VoxelSize();
 }
 
-/// The sample lattice that an image will have, from what is known before there is data. False when nothing is.
-bool PromisedFrame(vtkInformation* inInfo, bool cellData, GridFrame& frame)
-{
-  if (!inInfo->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
-  {
-    return false;
-  }
-  std::array<int, 6> extent;
-  std::copy_n(inInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()), 6, extent.begin());
-  Vec3 origin = Vec3::Zero(), spacing = Vec3::Ones();
-  Mat3 direction = Mat3::Identity();
-  if (inInfo->Has(vtkDataObject::ORIGIN()))
-  {
-    origin = Eigen::Map<const Vec3>(inInfo->Get(vtkDataObject::ORIGIN()));
-  }
-  if (inInfo->Has(vtkDataObject::SPACING()))
-  {
-    spacing = Eigen::Map<const Vec3>(inInfo->Get(vtkDataObject::SPACING()));
-  }
-  if (inInfo->Has(vtkDataObject::DIRECTION()))
-  {
-    direction = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(inInfo->Get(vtkDataObject::DIRECTION()));
-  }
-  try
-  {
-    frame = GridFrame(extent, origin, spacing, direction);
-    frame = cellData ? FrameOfCells(frame) : frame;
-  }
-  catch (const std::invalid_argument&)
-  {
-    return false; // an empty image, or one that RequestData will refuse
-  }
-  return true;
-}
-
-/// Whether the array to process is cell data, as far as can be told before there is data.
-bool PromisesCellData(vtkInformation* arrayInfo, vtkInformation* inInfo)
-{
-  const int association = arrayInfo->Get(vtkDataObject::FIELD_ASSOCIATION());
-  const char* name = arrayInfo->Get(vtkDataObject::FIELD_NAME());
-  // Images announce point scalars also when they have none, so the data tell, where there are any.
-  vtkImageData* image = vtkImageData::SafeDownCast(inInfo->Get(vtkDataObject::DATA_OBJECT()));
-  const bool hasData = image && image->GetNumberOfPoints() > 0;
-  const auto present = [&](int where) -> bool
-  {
-    if (hasData)
-    {
-      vtkDataSetAttributes* attributes = image->GetAttributes(where);
-      return name ? attributes->HasArray(name) != 0 : attributes->GetScalars() != nullptr;
-    }
-    return name ? vtkDataObject::GetNamedFieldInformation(inInfo, where, name) != nullptr
-                : vtkDataObject::GetActiveFieldInformation(inInfo, where, vtkDataSetAttributes::SCALARS) != nullptr;
-  };
-  return association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
-    (association == vtkDataObject::FIELD_ASSOCIATION_POINTS_THEN_CELLS &&
-      !present(vtkDataObject::FIELD_ASSOCIATION_POINTS) && present(vtkDataObject::FIELD_ASSOCIATION_CELLS));
-}
-
 /// The array to process as labels, those that were not asked for merged into the background. `missing`: what was asked
 /// for and does not occur.
 LabelImage LabelsToSplit(vtkLabelSplit* filter, vtkImageData* input, vtkDataArray* array, int association,
@@ -239,10 +180,10 @@ GridFrame BlockFrame(const GridFrame& source, const Box& box)
   return GridFrame(extent, source.Origin(), source.Spacing(), source.Direction());
 }
 
-/// Appends the blocks. Returns the labels of materials of which resampling or opening left nothing; where resampling
-/// did, there is no block.
-std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, CollectionHeader& header,
-  vtkPartitionedDataSetCollection* output, const Monitor& monitor)
+/// Appends the blocks, or only the materials to the header. Returns the labels of materials of which resampling or
+/// opening left nothing; where resampling did, there is no block.
+std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, bool headerOnly,
+  CollectionHeader& header, vtkPartitionedDataSetCollection* output, const Monitor& monitor)
 {
   const Lattice source = image.Frame.Samples();
   const int count = int(image.Labels.size());
@@ -261,6 +202,11 @@ std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, C
     material.Label = image.Labels[id];
     material.Name = filter->GetMaterialName(material.Label);
     filter->GetMaterialColor(material.Label, material.Color.data());
+    header.Materials.push_back(material);
+    if (headerOnly)
+    {
+      continue;
+    }
     monitor.Step(double(id) / count, "Mask of " + material.Name);
     MaskOptions options;
     options.OpeningRadius = RadiusIn(source, "opening", filter->GetMaterialOpeningRadius(material.Label));
@@ -278,7 +224,6 @@ std::vector<Label> AppendMasks(vtkLabelSplit* filter, const LabelImage& image, C
     {
       lost.push_back(material.Label);
     }
-    header.Materials.push_back(material);
     AppendBlock(output, material, frame, mask);
   }
   return lost;
@@ -476,17 +421,26 @@ double vtkLabelSplit::FindUpsampling(vtkInformationVector** inputVector)
 
 int vtkLabelSplit::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  RequestWholeExtent(inputVector[0]->GetInformationObject(0));
+  RequestAll(inputVector[0]->GetInformationObject(0));
   return 1;
 }
 
-int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkLabelSplit::FillOutputPortInformation(int port, vtkInformation* info)
 {
+  PromiseFirstPiece(info);
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
+int vtkLabelSplit::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const bool first = RequestedPiece(request, outputVector).IsFirst();
   vtkImageData* input = vtkImageData::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
   return RunStage(this,
     [&](const Monitor& monitor)
     {
+      RequireWhole(inputVector[0]->GetInformationObject(0), input);
       CollectionHeader header;
       header.Background = this->BackgroundLabel;
       header.Padding = this->Padding;
@@ -527,7 +481,12 @@ int vtkLabelSplit::RequestData(vtkInformation*, vtkInformationVector** inputVect
       }
       header.Source = image.Frame;
       header.Padding = this->Padding + ContinuedLayers(this, image.Frame.Samples());
-      const std::vector<Label> lost = AppendMasks(this, image, header, output, monitor.Part(0.2, 1.0));
+      const std::vector<Label> lost = AppendMasks(this, image, !first, header, output, monitor.Part(0.2, 1.0));
+      if (!first)
+      {
+        AppendEmptyBlocks(output, header);
+        return;
+      }
       WriteHeader(output, header);
       if (!missing.empty())
       {

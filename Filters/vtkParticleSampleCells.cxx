@@ -6,6 +6,7 @@
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
 #include "MeshAdapter.h"
+#include "ServerPieces.h"
 #include "WorkingImage.h"
 
 #include <vtkDataArray.h>
@@ -95,15 +96,21 @@ int vtkParticleSampleCells::FillInputPortInformation(int port, vtkInformation* i
   return 1;
 }
 
+int vtkParticleSampleCells::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  PromiseFirstPiece(info);
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
 int vtkParticleSampleCells::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  RequestWholeExtent(inputVector[1]->GetInformationObject(0));
+  RequestAllPromised(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 
 int vtkParticleSampleCells::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkImageData* sizing = vtkImageData::GetData(inputVector[1], 0);
@@ -114,7 +121,7 @@ int vtkParticleSampleCells::RequestData(
     {
       const CollectionHeader header = ReadHeader(input);
       SampleResult result;
-      if (!header.Materials.empty())
+      if (!header.Materials.empty() && RequestedPiece(request, outputVector).IsFirst())
       {
         monitor.Step(0.0, "Reading the indicators");
         const IndicatorSet indicators = MakeIndicatorSet(input, header);

@@ -6,6 +6,8 @@
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
+#include "MaterialArrays.h"
+#include "ServerPieces.h"
 #include "WorkingImage.h"
 
 #include <vtkDataArray.h>
@@ -85,6 +87,11 @@ Grid<float> SampleBound(vtkDataArray* array, const GridFrame& frame, const GridF
   return sampled;
 }
 
+std::array<vtkIdType, 2> Ascending(vtkIdType labelA, vtkIdType labelB)
+{
+  return { std::min(labelA, labelB), std::max(labelA, labelB) };
+}
+
 SizingOptions OptionsOf(vtkSizingField* filter, const CollectionHeader& header)
 {
   SizingOptions options;
@@ -148,11 +155,49 @@ void vtkSizingField::ClearMaterialMaximumLengths()
   }
 }
 
+void vtkSizingField::SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length)
+{
+  if (this->GetInterfaceMaximumLength(labelA, labelB) == length)
+  {
+    return;
+  }
+  if (length == 0)
+  {
+    this->InterfaceMaximumLengths.erase(Ascending(labelA, labelB));
+  }
+  else
+  {
+    this->InterfaceMaximumLengths[Ascending(labelA, labelB)] = length;
+  }
+  this->Modified();
+}
+
+double vtkSizingField::GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const
+{
+  const auto found = this->InterfaceMaximumLengths.find(Ascending(labelA, labelB));
+  return found == this->InterfaceMaximumLengths.end() ? 0.0 : found->second;
+}
+
+void vtkSizingField::ClearInterfaceMaximumLengths()
+{
+  if (!this->InterfaceMaximumLengths.empty())
+  {
+    this->InterfaceMaximumLengths.clear();
+    this->Modified();
+  }
+}
+
 int vtkSizingField::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPartitionedDataSetCollection" : "vtkImageData");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port);
   return 1;
+}
+
+int vtkSizingField::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  PromiseFirstPiece(info);
+  return this->Superclass::FillOutputPortInformation(port, info);
 }
 
 int vtkSizingField::RequestInformation(
@@ -172,14 +217,12 @@ int vtkSizingField::RequestInformation(
 
 int vtkSizingField::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
 {
-  if (inputVector[1]->GetNumberOfInformationObjects() > 0)
-  {
-    RequestWholeExtent(inputVector[1]->GetInformationObject(0));
-  }
+  RequestAllPromised(inputVector, this->GetNumberOfInputPorts());
   return 1;
 }
 
-int vtkSizingField::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkSizingField::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkImageData* userImage = vtkImageData::GetData(inputVector[1], 0);
@@ -189,12 +232,25 @@ int vtkSizingField::RequestData(vtkInformation*, vtkInformationVector** inputVec
     {
       const CollectionHeader header = ReadHeader(input);
       this->PredictedParticles = 0;
-      if (header.Materials.empty())
+      if (header.Materials.empty() || !RequestedPiece(request, outputVector).IsFirst())
       {
         Attach(output, SizingResult());
         return;
       }
-      const SizingOptions options = OptionsOf(this, header);
+      SizingOptions options = OptionsOf(this, header);
+      for (const auto& [labels, length] : this->InterfaceMaximumLengths)
+      {
+        // Materials ascend by label, and so do their ids.
+        const std::array<MaterialId, 2> ids = { FindMaterial(header.Materials, labels[0]),
+          FindMaterial(header.Materials, labels[1]) };
+        if (ids[0] == ids[1] || ids[0] == NoMaterial || ids[1] == NoMaterial)
+        {
+          vtkWarningMacro("SetInterfaceMaximumLength: there is no interface between the labels " << labels[0] << " and "
+                                                                                                 << labels[1] << ".");
+          continue;
+        }
+        options.InterfaceMaximumLength[ids] = length;
+      }
       const std::size_t unknown = this->MaterialMaximumLengths.size() -
         std::count_if(options.MaterialMaximumLength.begin(), options.MaterialMaximumLength.end(),
           [](double length) { return length != 0; });
@@ -238,6 +294,11 @@ void vtkSizingField::PrintSelf(ostream& os, vtkIndent indent)
   for (const auto& [label, length] : this->MaterialMaximumLengths)
   {
     os << " " << label << ": " << length;
+  }
+  os << "\n" << indent << "InterfaceMaximumLengths:";
+  for (const auto& [labels, length] : this->InterfaceMaximumLengths)
+  {
+    os << " " << labels[0] << ", " << labels[1] << ": " << length;
   }
   os << "\n" << indent << "TargetTriangles: " << this->TargetTriangles << "\n";
   os << indent << "PredictedParticles: " << this->PredictedParticles << "\n";

@@ -32,8 +32,8 @@
  * Limits: parts thinner than a voxel that no sample hits have no feature size.
  *
  * Errors: blocks without "Indicator", options out of range, an input on port 1 without a point array of lengths.
- * Warnings: a material of SetMaterialMaximumLength that does not exist; a TargetTriangles that the bounds keep out of
- * reach.
+ * Warnings: a material of SetMaterialMaximumLength or SetInterfaceMaximumLength that does not exist; a TargetTriangles
+ * that the bounds keep out of reach.
  * An empty collection gives an empty image with empty arrays.
  */
 #ifndef vtkSizingField_h
@@ -42,7 +42,8 @@
 #include "vtkImageAlgorithm.h"
 #include "vtkLabelMeshFiltersModule.h"
 
-#include <map> // for the materials' lengths
+#include <array> // for pairs of labels
+#include <map>   // for the materials' lengths
 
 class VTKLABELMESHFILTERS_EXPORT vtkSizingField : public vtkImageAlgorithm
 {
@@ -98,6 +99,17 @@ public:
   ///@}
 
   ///@{
+  /**
+   * The longest length, world units, on the interface between the materials with these two labels, in any order; the
+   * background is one of them. Within a voxel of a curve where another material begins it may be longer by Gradation
+   * times that voxel. 0 takes its bound away. Default: none given.
+   */
+  void SetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB, double length);
+  double GetInterfaceMaximumLength(vtkIdType labelA, vtkIdType labelB) const;
+  void ClearInterfaceMaximumLengths();
+  ///@}
+
+  ///@{
   /// About how many interface triangles the mesh shall have; 0: lengths are not scaled. Default 0.
   vtkSetClampMacro(TargetTriangles, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetTriangles, vtkIdType);
@@ -113,6 +125,7 @@ protected:
   ~vtkSizingField() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
@@ -124,6 +137,7 @@ protected:
   double MinimumLength = 0.0;
   double MaximumLength = 0.0;
   std::map<vtkIdType, double> MaterialMaximumLengths;
+  std::map<std::array<vtkIdType, 2>, double> InterfaceMaximumLengths; ///< labels ascend
   vtkIdType TargetTriangles = 0;
   vtkIdType PredictedParticles = 0;
 

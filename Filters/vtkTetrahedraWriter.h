@@ -11,8 +11,9 @@
  *  - the tetrahedra of each material, under the material's name;
  *  - the faces between each two materials, and the outer faces, beyond which is the background, under the two names
  *    joined by "_" ("Label_1_Label_2", "upper_Label_0"): the background second, else ascending by label;
- *  - where the mesh has faces exactly in a side of its bounding box (a flat border: vtkLabelSplit), those faces as
- *    "border_x_min", "border_x_max", "border_y_min" ... besides.
+ *  - where the mesh has faces in a side of its box (a flat border: vtkLabelSplit), those faces as "border_x_min",
+ *    "border_x_max", "border_y_min" ... besides. The box is along the world's axes; for an image that is turned
+ *    otherwise (field data SourceDirection, as vtkDelaunayLabelMesh writes it) along the image's own x, y and z.
  * Names are made fit for the format, and different ones by "_2", "_3" ...
  *
  * Node n is the n-th point that a tetrahedron has, element n the n-th cell, from 1 on. Tetrahedra of negative volume

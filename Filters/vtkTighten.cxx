@@ -7,6 +7,7 @@
 #include "FilterSupport.h"
 #include "IndicatorCollection.h"
 #include "LabelMeshNames.h"
+#include "ServerPieces.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -329,6 +330,12 @@ int vtkTighten::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+int vtkTighten::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  PromiseFirstPiece(info);
+  return this->Superclass::FillOutputPortInformation(port, info);
+}
+
 int vtkTighten::RequestInformation(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -336,15 +343,28 @@ int vtkTighten::RequestInformation(
   return 1;
 }
 
-int vtkTighten::RequestData(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+int vtkTighten::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  RequestAllPromised(inputVector, this->GetNumberOfInputPorts());
+  return 1;
+}
+
+int vtkTighten::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPartitionedDataSetCollection* input = vtkPartitionedDataSetCollection::GetData(inputVector[0], 0);
   vtkPartitionedDataSetCollection* output = vtkPartitionedDataSetCollection::GetData(outputVector, 0);
-  const bool givenUp = IsGivenUp(inputVector[0]->GetInformationObject(0));
+  const bool first = RequestedPiece(request, outputVector).IsFirst();
+  const bool givenUp = first && IsGivenUp(inputVector[0]->GetInformationObject(0));
   const int done = RunStage(this,
     [&](const Monitor& monitor)
     {
       const CollectionHeader header = ReadHeader(input);
+      if (!first)
+      {
+        AppendEmptyBlocks(output, header);
+        return;
+      }
       std::vector<Job> jobs(header.Materials.size());
       std::vector<double> inSource(jobs.size()); // masks with a flat border go on beyond it
       for (unsigned int n = 0; n < jobs.size(); ++n)

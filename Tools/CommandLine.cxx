@@ -101,6 +101,23 @@ void ParseMaterial(const std::string& text, std::map<long long, MaterialOptions>
   }
 }
 
+void ParseInterface(const std::string& text, std::map<std::array<long long, 2>, double>& lengths)
+{
+  const std::string option = "--interface " + text;
+  const std::size_t colon = text.find(":length=");
+  const std::vector<std::string> labels = Split(text.substr(0, colon), ',');
+  if (colon == std::string::npos || labels.size() != 2)
+  {
+    Fail("--interface needs A,B:length=L, found '" + text + "'");
+  }
+  const long long a = ParseInteger(option, labels[0]), b = ParseInteger(option, labels[1]);
+  if (a == b)
+  {
+    Fail(option + ": an interface is between two labels");
+  }
+  lengths[{ std::min(a, b), std::max(a, b) }] = ParseNumber(option + ": length", text.substr(colon + 8), 0.0);
+}
+
 using Action = std::function<void(const std::string& option, const std::string& value)>;
 
 /// The options that take a value.
@@ -150,6 +167,15 @@ std::map<std::string, Action> Actions(CommandLine& line)
         line.TetImprovePasses =
           static_cast<int>(std::min(ParseNumber(option, std::to_string(ParseInteger(option, value)), 0), 1000.0));
       } },
+    { "--tet-slide",
+      [&line](const std::string&, const std::string& value)
+      {
+        if (value != "on" && value != "off")
+        {
+          Fail("--tet-slide is on or off, found '" + value + "'");
+        }
+        line.TetSlide = value == "on";
+      } },
     { "--volume-gradation", number(line.VolumeGradation, 0.01) },
     { "--volume-max-length", number(line.VolumeMaximumLength, 0.0) },
     { "--method",
@@ -187,6 +213,8 @@ std::map<std::string, Action> Actions(CommandLine& line)
     { "--gradation", number(line.Gradation, 1e-3) },
     { "--memory-limit", number(line.MemoryLimit, 0.0) },
     { "--material", [&line](const std::string&, const std::string& value) { ParseMaterial(value, line.Materials); } },
+    { "--interface",
+      [&line](const std::string&, const std::string& value) { ParseInterface(value, line.InterfaceLengths); } },
     { "--labels",
       [&line](const std::string& option, const std::string& value)
       {
@@ -277,7 +305,7 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
          "--report FILE.json");
   }
   for (const char* option :
-    { "--tet-method", "--tet-refine", "--tet-improve", "--volume-gradation", "--volume-max-length" })
+    { "--tet-method", "--tet-refine", "--tet-improve", "--tet-slide", "--volume-gradation", "--volume-max-length" })
   {
     if (line.Tets.empty() && given.count(option))
     {
@@ -285,8 +313,8 @@ void Check(const CommandLine& line, const std::set<std::string>& given)
     }
   }
   for (const char* option :
-    { "--particles", "--tets", "--border", "--smoothing", "--radius", "--material", "--epsilon", "--min-length",
-      "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component", "--upsample" })
+    { "--particles", "--tets", "--border", "--smoothing", "--radius", "--material", "--interface", "--epsilon",
+      "--min-length", "--max-length", "--deviation", "--gradation", "--memory-limit", "--min-component", "--upsample" })
   {
     if (line.Grid && given.count(option))
     {
@@ -385,6 +413,7 @@ Particle method (radii in voxels, lengths in world units):
   --radius R            least radius of curvature after smoothing (default 0.7)
   --material LABEL:key=value,...  for one material: radius=R, opening=R, closing=R, max-length=L, name=TEXT,
                         color=#rrggbb; may be given several times
+  --interface A,B:length=L  longest edge on the interface between two labels; may be given several times
   --epsilon E           edge length over feature size (default 0.65)
   --min-length L, --max-length L  bounds of the edge length
   --deviation D         voxels that edges may stay beside curved surfaces (default 0.2; 0: no bound)
@@ -396,6 +425,7 @@ Tetrahedra (with --tets):
   --tet-method tetgen   TetGen inserts inner points
   --tet-refine N        rounds of inserting points where packed slivers are (default 0)
   --tet-improve N       passes over badly shaped tetrahedra at most (default 10; 0: none)
+  --tet-slide on|off    whether vertices of the triangles move a little where slivers have no other cure (default on)
   --volume-gradation G  how fast edges grow inside (default 0.4)
   --volume-max-length L bound of the edge length inside (default: none)
 

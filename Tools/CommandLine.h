@@ -28,13 +28,15 @@ struct CommandLine
   bool TetsByTetGen = false;                                     ///< --tet-method tetgen
   int TetRefinementRounds = 0;                                   ///< --tet-refine
   std::optional<int> TetImprovePasses;                           ///< --tet-improve
+  bool TetSlide = true;                                          ///< --tet-slide
   std::vector<long long> Labels;
   long long Background = 0;
   long long MinimumComponent = 0; ///< voxels
   int MaximumUpsampling = 1;      ///< samples per voxel along each axis
   std::map<long long, MaterialOptions> Materials;
-  bool FlatBorder = false; ///< --border flat
-  bool Tightening = false; ///< --smoothing tighten
+  std::map<std::array<long long, 2>, double> InterfaceLengths; ///< --interface A,B:length=L; world units
+  bool FlatBorder = false;                                     ///< --border flat
+  bool Tightening = false;                                     ///< --smoothing tighten
   std::optional<double> Radius, Epsilon, MinimumLength, MaximumLength, MaximumDeviation, Gradation;
   std::optional<double> VolumeGradation, VolumeMaximumLength;
   long long Triangles = 0;

@@ -267,6 +267,13 @@ void OutputFiles::WriteText(const std::string& file, const std::string& text)
   WriteBytes(this->StagedPath(file), text, file);
 }
 
+void OutputFiles::Forget(const std::string& file)
+{
+  this->Places.erase(std::remove_if(this->Places.begin(), this->Places.end(),
+                       [&file](const Place& place) { return place.File == file && place.Folder.empty(); }),
+    this->Places.end());
+}
+
 void OutputFiles::Commit()
 {
   for (const Place& place : this->Places)

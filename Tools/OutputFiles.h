@@ -31,6 +31,9 @@ public:
   void WriteSurfaces(const std::string& file, vtkPartitionedDataSetCollection* surfaces);
   void WriteText(const std::string& file, const std::string& text);
 
+  /// The file is not to be written after all.
+  void Forget(const std::string& file);
+
   void Commit();
 
 private:

@@ -173,6 +173,16 @@ std::vector<long long> LabelsToMesh(const CommandLine& line, const std::set<long
   {
     require(material.first, "--material");
   }
+  for (const auto& own : line.InterfaceLengths)
+  {
+    for (const long long label : own.first)
+    {
+      if (label != line.Background)
+      {
+        require(label, "--interface");
+      }
+    }
+  }
   labels.erase(line.Background);
   if (labels.empty())
   {
@@ -269,9 +279,14 @@ void Apply(const CommandLine& line, const std::map<long long, LabelStyle>& style
   {
     mesher->SetTetrahedra(line.TetsByTetGen ? vtkDelaunayLabelMesh::TetGen : vtkDelaunayLabelMesh::Packed);
     mesher->SetRefinementRounds(line.TetRefinementRounds);
+    mesher->SetSlideSurface(line.TetSlide);
     mesher->SetTetraImprovePasses(line.TetImprovePasses.value_or(mesher->GetTetraImprovePasses()));
     set(line.VolumeGradation, &vtkLabelMesher::SetVolumeGradation);
     set(line.VolumeMaximumLength, &vtkLabelMesher::SetVolumeMaximumLength);
+  }
+  for (const auto& [labels, length] : line.InterfaceLengths)
+  {
+    mesher->SetInterfaceMaximumLength(labels[0], labels[1], length);
   }
   for (const auto& [label, material] : line.Materials)
   {
@@ -396,6 +411,7 @@ void MeshVolume(const CommandLine& line)
 
   vtkNew<vtkLabelMesher> mesher;
   vtkNew<vtkGridLabelMesh> grid;
+  std::string unfilled; // why there are no tetrahedra
   if (line.Grid)
   {
     const double begin = Now();
@@ -413,7 +429,8 @@ void MeshVolume(const CommandLine& line)
     }
     report.Particles = mesher->GetParticles();
     report.Tightened = mesher->GetLabelImage();
-    report.Tetrahedra = line.Tets.empty() ? nullptr : mesher->GetTetrahedraOutput();
+    unfilled = line.Tets.empty() ? "" : mesher->GetTetrahedraFailure();
+    report.Tetrahedra = line.Tets.empty() || !unfilled.empty() ? nullptr : mesher->GetTetrahedraOutput();
   }
   report.Mesh = line.Grid ? grid->GetOutput() : mesher->GetOutput();
   report.Surfaces = line.Grid ? grid->GetSurfaces() : mesher->GetSurfaces();
@@ -427,7 +444,11 @@ void MeshVolume(const CommandLine& line)
   {
     files.WriteSurfaces(line.Surfaces, report.Surfaces);
   }
-  if (!line.Tets.empty())
+  if (!unfilled.empty())
+  {
+    files.Forget(line.Tets);
+  }
+  else if (!line.Tets.empty())
   {
     files.WriteTetrahedra(line.Tets, mesher->GetTetrahedraOutput());
   }
@@ -451,6 +472,10 @@ void MeshVolume(const CommandLine& line)
   for (const std::string& sentence : verdict)
   {
     std::cerr << "labelmesh: " << sentence << "\n";
+  }
+  if (!unfilled.empty())
+  {
+    Fail("'" + line.Tets + "' was not written, all other files were: " + unfilled);
   }
 }
 }

@@ -20,4 +20,5 @@ install(
     "${labelmesh_package}/LabelMeshConfigVersion.cmake"
     "${labelmesh_package}/FindTetGen.cmake"
   DESTINATION "${LABELMESH_CMAKE_DESTINATION}")
-install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES LICENSE NOTICE README.md CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY Examples/Cxx Examples/Python DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples")

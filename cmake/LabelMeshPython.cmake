@@ -18,3 +18,6 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/labelmesh_init.py.in"
   "${CMAKE_BINARY_DIR}/${labelmesh_site_packages}/labelmesh/__init__.py" @ONLY)
 install(FILES "${CMAKE_BINARY_DIR}/${labelmesh_site_packages}/labelmesh/__init__.py"
   DESTINATION "${labelmesh_site_packages}/labelmesh")
+
+configure_file("${PROJECT_SOURCE_DIR}/cmake/install_stubs.cmake.in" "${CMAKE_BINARY_DIR}/install_stubs.cmake" @ONLY)
+install(SCRIPT "${CMAKE_BINARY_DIR}/install_stubs.cmake")

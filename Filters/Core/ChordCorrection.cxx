@@ -3,6 +3,7 @@
 
 #include "Junction.h"
 #include "Parallel.h"
+#include "VertexMoves.h"
 #include "VertexSmoothing.h"
 
 #include <Eigen/Geometry>
@@ -126,19 +127,6 @@ Vec3 MoveOffSurface(
   return area > 0.0 ? Vec3(sum.dot(normal) / area * normal) : Vec3(Vec3::Zero());
 }
 
-template <typename Functor>
-void ForEachVertex(const SurfaceComplex& complex, Functor functor)
-{
-  ParallelFor(0, complex.NumberOfVertices(), 1024,
-    [&](Index first, Index last)
-    {
-      for (Index v = first; v < last; ++v)
-      {
-        functor(v);
-      }
-    });
-}
-
 std::vector<Vec3> Moves(const IndicatorSet& indicators, const SurfaceComplex& complex)
 {
   const std::vector<FaceGap> gaps = GapsOfFaces(indicators, complex);
@@ -153,60 +141,6 @@ bool IsThin(const IndicatorSet& indicators, const Vec3& x, const Vec3& move)
 {
   return indicators.LargestMaterial(x + move) != indicators.LargestMaterial(x + LeastThickness * move);
 }
-
-/// Whether a triangle keeps its shape and its sense when its corners move.
-bool StaysGood(const SurfaceComplex& complex, Index t, const std::vector<Vec3>& moves, double leastRatio)
-{
-  const auto& v = complex.Triangle(t).Vertices;
-  std::array<Vec3, 3> p;
-  for (int i = 0; i < 3; ++i)
-  {
-    p[i] = complex.Vertex(v[i]).Position + moves[v[i]];
-  }
-  const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]).stableNormalized();
-  return normal.dot(complex.UnitNormal(t)) > LeastTurnOfFace &&
-    RadiusRatio(p[0], p[1], p[2]) >= std::min(leastRatio, complex.Ratio(t));
-}
-
-/// Takes back moves of the corners of triangles that would suffer, until none does.
-void Restrain(const SurfaceComplex& complex, double leastRatio, std::vector<Vec3>& moves)
-{
-  std::vector<std::int32_t> suspects;
-  for (Index t = 0; t < complex.NumberOfTriangles(); ++t)
-  {
-    if (complex.IsAlive(t))
-    {
-      suspects.push_back(std::int32_t(t));
-    }
-  }
-  while (!suspects.empty())
-  {
-    std::vector<Index> taken;
-    for (const std::int32_t t : suspects)
-    {
-      if (!StaysGood(complex, t, moves, leastRatio))
-      {
-        const auto& v = complex.Triangle(t).Vertices;
-        taken.insert(taken.end(), v.begin(), v.end());
-      }
-    }
-    std::sort(taken.begin(), taken.end());
-    taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
-    for (const Index v : taken)
-    {
-      moves[v].setZero();
-    }
-    suspects = complex.TrianglesAt(taken);
-    // Triangles with all corners at rest are as they were.
-    suspects.erase(std::remove_if(suspects.begin(), suspects.end(),
-                     [&](std::int32_t t)
-                     {
-                       const auto& v = complex.Triangle(t).Vertices;
-                       return std::all_of(v.begin(), v.end(), [&moves](Index n) { return moves[n].isZero(0.0); });
-                     }),
-      suspects.end());
-  }
-}
 }
 
 Index CorrectChords(const IndicatorSet& indicators, SurfaceComplex& complex, double leastRatio)
@@ -220,23 +154,6 @@ Index CorrectChords(const IndicatorSet& indicators, SurfaceComplex& complex, dou
         moves[v].setZero();
       }
     });
-  Restrain(complex, leastRatio, moves);
-  Index moved = 0;
-  for (Index v = 0; v < complex.NumberOfVertices(); ++v)
-  {
-    if (!moves[v].isZero(0.0))
-    {
-      Particle p = complex.Vertex(v);
-      p.Position += moves[v];
-      if (indicators.Border())
-      {
-        indicators.Border()->Snap(p.Materials.begin(), p.Materials.Size(), p.Position);
-      }
-      p.Residual = moves[v].norm();
-      complex.SetVertex(v, p);
-      ++moved;
-    }
-  }
-  return moved;
+  return MoveVertices(indicators, leastRatio, moves, complex);
 }
 }

@@ -89,6 +89,25 @@ struct Filling
   std::vector<MaterialId> Materials;
 };
 
+/// The numbers of vertices among those that a triangle has, -1: none has it.
+std::vector<Index> NumbersOfUsed(const InterfaceMesh& mesh)
+{
+  std::vector<Index> numbers(mesh.Vertices.size(), -1);
+  for (const InterfaceTriangle& triangle : mesh.Triangles)
+  {
+    for (const Index v : triangle.Vertices)
+    {
+      numbers[v] = 0;
+    }
+  }
+  Index used = 0;
+  for (Index& number : numbers)
+  {
+    number = number == 0 ? used++ : -1;
+  }
+  return numbers;
+}
+
 /// The interface as TetGen and the checks see it: only the points that a triangle has.
 struct Boundary
 {
@@ -98,19 +117,11 @@ struct Boundary
 
   explicit Boundary(const InterfaceMesh& mesh)
   {
-    std::vector<Index> numbers(mesh.Vertices.size(), -1);
-    for (const InterfaceTriangle& triangle : mesh.Triangles)
-    {
-      for (const Index v : triangle.Vertices)
-      {
-        numbers[v] = 0;
-      }
-    }
+    const std::vector<Index> numbers = NumbersOfUsed(mesh);
     for (std::size_t v = 0; v < numbers.size(); ++v)
     {
-      if (numbers[v] == 0)
+      if (numbers[v] >= 0)
       {
-        numbers[v] = Index(this->Points.size());
         this->Points.push_back(mesh.Vertices[v].Position);
       }
     }
@@ -452,5 +463,17 @@ TetraResult FillWithTetrahedra(const InterfaceMesh& surface, MaterialId backgrou
   CheckVolumes(result.Mesh);
   monitor.Step(1.0);
   return result;
+}
+
+void TakePositions(const TetraMesh& tetrahedra, InterfaceMesh& surface)
+{
+  const std::vector<Index> numbers = NumbersOfUsed(surface);
+  for (std::size_t v = 0; v < numbers.size(); ++v)
+  {
+    if (numbers[v] >= 0)
+    {
+      surface.Vertices[v].Position = tetrahedra.Points[numbers[v]];
+    }
+  }
 }
 }

@@ -43,6 +43,9 @@ struct TetraResult
 /// std::runtime_error where TetGen fails, as it does when triangles cut each other, and where the check does.
 TetraResult FillWithTetrahedra(const InterfaceMesh& surface, MaterialId background,
   const std::vector<InnerPoint>& inside, const TetraOptions& options, const Monitor& monitor = Monitor());
+
+/// Puts the vertices of an interface mesh where those of its tetrahedra are, which may have moved (TetraSliding).
+void TakePositions(const TetraMesh& tetrahedra, InterfaceMesh& surface);
 }
 
 #endif

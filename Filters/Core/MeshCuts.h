@@ -7,15 +7,20 @@
 
 namespace LabelMesh
 {
-/// The vertices of triangles that cut each other, ascending; where `near` is not empty (ascending), only of cuts with
-/// triangles at those vertices.
-std::vector<Index> VerticesOfCuts(const SurfaceComplex& complex, const std::vector<Index>& near = {});
+/// A place where triangles cut each other: the vertices, ascending, of such triangles as have vertices in common.
+using Cut = std::vector<Index>;
 
-/// Puts what is around the vertices `cuts` back to what it was before the mesh was improved, triangles and positions.
-/// False, and the improved mesh is of no use, where that does not fit what is around it now, or leaves a triangle
-/// below the wanted radius ratio or a cut.
-bool PutBack(
-  const SurfaceComplex& before, const std::vector<Index>& cuts, double wantedRatio, SurfaceComplex& improved);
+/// All cuts; where `near` is not empty (ascending), only those with triangles at its vertices.
+std::vector<Cut> FindCuts(const SurfaceComplex& complex, const std::vector<Index>& near = {});
+
+/// The vertices of all cuts, ascending.
+std::vector<Index> VerticesOf(const std::vector<Cut>& cuts);
+
+/// Puts what is around each cut back to what it was before the mesh was improved, triangles and positions; one ring of
+/// vertices farther where that does not fit what is around it now, makes a triangle that is below `wantedRatio` and
+/// below all that were there before, or leaves a cut. False, and the improved mesh is of no use, where six rings do not
+/// do.
+bool PutBack(const SurfaceComplex& before, std::vector<Cut> cuts, double wantedRatio, SurfaceComplex& improved);
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include "MeshCuts.h"
 #include "MeshImprovement.h"
 #include "TetraLabeling.h"
+#include "VolumeCorrection.h"
 
 #include <algorithm>
 #include <functional>
@@ -228,8 +229,13 @@ void ImproveWithoutCuts(const IndicatorSet& indicators, SurfaceComplex& complex,
     {
       CorrectChords(indicators, improved, options.RepairBelow);
     }
-    std::vector<Index> frozen = VerticesOfCuts(improved);
-    if (frozen.empty() || PutBack(complex, frozen, PoorRatio, improved))
+    if (!options.WantedVolumes.empty())
+    {
+      CorrectVolumes(indicators, options.WantedVolumes, options.RepairBelow, improved);
+    }
+    const std::vector<Cut> cuts = FindCuts(improved);
+    std::vector<Index> frozen = VerticesOf(cuts);
+    if (PutBack(complex, cuts, PoorRatio, improved))
     {
       result.KeptFromCutting = Index(frozen.size()) + complex.NumberOfFrozen();
       complex = std::move(improved);

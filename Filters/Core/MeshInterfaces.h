@@ -15,6 +15,8 @@ struct MeshOptions
   int ImprovePasses = 3;     ///< of flipping edges and smoothing vertices
   double RepairBelow = 0.75; ///< radius ratio under which a triangle is mended
   bool CorrectChords = true; ///< whether faces, not vertices, lie on the interfaces
+  /// What each material should enclose (length cubed), by material; not positive where that is open, empty: of all.
+  std::vector<double> WantedVolumes;
 };
 
 struct MeshResult

@@ -17,7 +17,7 @@ namespace
 // Lengths in voxels.
 constexpr double Deep = 1.25;          // from the surface
 constexpr double DeepShare = 0.1;      // of the voxels of a part that has a core
-constexpr Index SmallPart = 300;       // voxels
+constexpr Index SmallPart = 3000;      // voxels
 constexpr double NearReach = 2.5;      // from a part's surface: where its weight is added
 constexpr double MeasureReach = 1.3;   // all voxels that share a corner with one of the part
 constexpr double RestoreBelow = 0.5;   // of its volume

@@ -257,6 +257,12 @@ private:
       const double most = m < o.MaterialMaximumLength.size() ? o.MaterialMaximumLength[m] : 0;
       return most > 0 ? most : double(Unbounded);
     };
+    const auto interfaceMaximum = [&o](const std::array<MaterialId, 2>& materials)
+    {
+      const auto [first, second] = std::minmax(materials[0], materials[1]);
+      const auto own = o.InterfaceMaximumLength.find({ first, second });
+      return own != o.InterfaceMaximumLength.end() && own->second > 0 ? own->second : double(Unbounded);
+    };
     std::vector<float> lengths(this->Features.Samples.size());
     ParallelFor(0, Index(lengths.size()), 4096,
       [&](Index first, Index last)
@@ -270,7 +276,8 @@ private:
             h = std::min(h, std::max(1.0 / sample.Curvature, CurvatureFloor * o.Epsilon * floor));
             h = std::min(h, std::max(std::sqrt(8.0 * deviation / sample.Curvature), o.Epsilon * floor));
           }
-          h = std::min({ scale * h, materialMaximum(sample.Materials[0]), materialMaximum(sample.Materials[1]) });
+          h = std::min({ scale * h, materialMaximum(sample.Materials[0]), materialMaximum(sample.Materials[1]),
+            interfaceMaximum(sample.Materials) });
           h = o.MaximumLength > 0 ? std::min(h, o.MaximumLength) : h;
           lengths[n] = float(std::max(h, o.MinimumLength));
         }

@@ -7,6 +7,8 @@
 #include "IndicatorSet.h"
 #include "Monitor.h"
 
+#include <map>
+
 namespace LabelMesh
 {
 struct SizingOptions
@@ -21,6 +23,8 @@ struct SizingOptions
   double MaximumLength = 0; ///< world length; 0: none
   /// World length per material, 0: none; empty: none at all. Bounds h0 on that material's interfaces.
   std::vector<double> MaterialMaximumLength;
+  /// World length per pair of materials, ascending: bounds h0 on the interfaces between the two.
+  std::map<std::array<MaterialId, 2>, double> InterfaceMaximumLength;
   /// Triangles wanted: h0 is scaled until about half as many particles are predicted; 0: off. The minimum, the maxima
   /// and the user's bound hold all the same, and may keep the target out of reach.
   double TargetTriangles = 0;

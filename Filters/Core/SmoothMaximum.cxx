@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SmoothMaximum.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace LabelMesh
@@ -45,19 +46,21 @@ std::vector<MaterialId> RivalsOf(const IndicatorSet& indicators, MaterialId m, c
       rivals.push_back(candidate);
     }
   }
-  if (rivals.empty())
+  // Candidates are those that can win nearby. Farther inside m the second largest need not be one of them.
+  MaterialId second = m;
+  double largest = -std::numeric_limits<double>::infinity();
+  for (int other = 0; other < indicators.NumberOfMaterials(); ++other)
   {
-    // Deep inside m the candidates say nothing of the second largest.
-    double largest = -std::numeric_limits<double>::infinity();
-    for (int other = 0; other < indicators.NumberOfMaterials(); ++other)
+    const double value = other == m ? largest : indicators.Value(MaterialId(other), x);
+    if (value > largest)
     {
-      const double value = other == m ? largest : indicators.Value(MaterialId(other), x);
-      if (value > largest)
-      {
-        largest = value;
-        rivals.assign(1, MaterialId(other));
-      }
+      largest = value;
+      second = MaterialId(other);
     }
+  }
+  if (second != m && std::find(rivals.begin(), rivals.end(), second) == rivals.end())
+  {
+    rivals.push_back(second);
   }
   return rivals;
 }

@@ -254,26 +254,47 @@ void CandidatePool::AddWhereFree(std::vector<Particle>& particles, double distan
         }
       });
   }
+  // Those of a batch are asked in parallel about all that was added before it, then one after another about its own.
+  constexpr Index batch = 16384;
+  const Index count = Index(this->Candidates.size());
   NeighborGrid added;
-  for (std::size_t n = 0; n < this->Candidates.size(); ++n)
+  const auto isFree = [&](Index n, const NeighborGrid& grid, Index first)
   {
     const Particle& candidate = this->Candidates[n];
-    if (this->Blockers[n] >= 0)
-    {
-      continue;
-    }
-    const bool isFree = !added.AnyScaled(candidate.Position, candidate.TargetLength, distance,
-      [&](Index other, double squared)
+    return this->Blockers[n] < 0 &&
+      !grid.AnyScaled(candidate.Position, candidate.TargetLength, distance,
+        [&](Index other, double squared)
+        {
+          const bool found = collides(candidate, particles[first + other], squared);
+          this->Blockers[n] = found ? std::int32_t(first + other) : -1;
+          return found;
+        });
+  };
+  for (Index start = 0; start < count; start += batch)
+  {
+    const Index end = std::min(count, start + batch), first = Index(particles.size());
+    ParallelFor(start, end, 256,
+      [&](Index from, Index to)
       {
-        const bool found = collides(candidate, particles[before + other], squared);
-        this->Blockers[n] = found ? std::int32_t(before + other) : -1;
-        return found;
+        for (Index n = from; n < to; ++n)
+        {
+          isFree(n, added, before);
+        }
       });
-    if (isFree)
+    NeighborGrid own;
+    for (Index n = start; n < end; ++n)
     {
-      this->Blockers[n] = std::int32_t(particles.size());
-      particles.push_back(candidate);
-      added.Insert(candidate.Position, candidate.TargetLength);
+      if (isFree(n, own, first))
+      {
+        const Particle& candidate = this->Candidates[n];
+        this->Blockers[n] = std::int32_t(particles.size());
+        particles.push_back(candidate);
+        own.Insert(candidate.Position, candidate.TargetLength);
+      }
+    }
+    for (Index n = first; n < Index(particles.size()); ++n)
+    {
+      added.Insert(particles[n].Position, particles[n].TargetLength);
     }
   }
 }

@@ -44,7 +44,9 @@ void RunTetGen(const std::string& switches, tetgenio& input, tetgenio& output, c
   }
   catch (int code)
   {
-    throw std::runtime_error("TetGen could not " + what + ": " + Reason(code));
+    throw std::runtime_error("TetGen could not " + what + ": " + Reason(code) +
+      ". A smaller Epsilon, FeatureSizeFloor or MinimumLength may help; the mesh without tetrahedra is of use all the "
+      "same.");
   }
 }
 }

@@ -36,6 +36,7 @@ public:
   MaterialId Material(Index t) const { return this->Mesh.Materials[t]; }
   double Quality(Index t) const { return this->Qualities[t]; } ///< TetraQuality
   const Vec3& Point(Index v) const { return this->Mesh.Points[v]; }
+  const std::vector<Vec3>& Points() const { return this->Mesh.Points; }
   /// Vertices of the interface, and numbers of points that nothing uses any more.
   bool IsFixed(Index v) const { return v < this->Mesh.SurfacePoints || this->Incident[v] < 0; }
   double QualityOf(const TetraCorners& c) const;

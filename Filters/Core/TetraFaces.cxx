@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -72,53 +73,63 @@ struct PatchFace
   }
 };
 
-struct Box
+/// The box of the tetrahedra's corners, along axes that may be turned; other points do not count.
+class BoxSides
 {
+public:
+  BoxSides(const TetraMesh& mesh, const Mat3& axes)
+    : Mesh(mesh)
+    , Axes((axes.array() == 0.0).count() == 6 ? Mat3(Mat3::Identity()) : axes)
+  {
+    if (!mesh.Corners.empty())
+    {
+      this->Low = this->High = this->Position(mesh.Corners[0][0]);
+    }
+    for (const auto& corners : mesh.Corners)
+    {
+      for (const std::int32_t v : corners)
+      {
+        this->Low = this->Low.cwiseMin(this->Position(v));
+        this->High = this->High.cwiseMax(this->Position(v));
+      }
+    }
+    this->Tolerance = this->Axes.isIdentity(0.0) ? 0.0 : Rounding * (this->High - this->Low).maxCoeff();
+  }
+
+  int Of(const FaceVertices& vertices) const
+  {
+    for (int side = 0; side < 6; ++side)
+    {
+      const int axis = side / 2;
+      const double plane = side % 2 == 0 ? this->Low[axis] : this->High[axis];
+      if (std::all_of(vertices.begin(), vertices.end(),
+            [&](std::int32_t v) { return std::abs(this->Position(v)[axis] - plane) <= this->Tolerance; }))
+      {
+        return side;
+      }
+    }
+    return NoSide;
+  }
+
+private:
+  static constexpr double Rounding = 1e-9; // of the longest side
+
+  Vec3 Position(std::int32_t v) const { return this->Axes.transpose() * this->Mesh.Points[v]; }
+
+  const TetraMesh& Mesh;
+  Mat3 Axes;
   Vec3 Low = Vec3::Zero(), High = Vec3::Zero();
+  double Tolerance = 0.0; // world length
 };
-
-/// The box of the tetrahedra's corners; other points do not count.
-Box BoxOf(const TetraMesh& mesh)
-{
-  Box box;
-  if (!mesh.Corners.empty())
-  {
-    box.Low = box.High = mesh.Points[mesh.Corners[0][0]];
-  }
-  for (const auto& corners : mesh.Corners)
-  {
-    for (const std::int32_t v : corners)
-    {
-      box.Low = box.Low.cwiseMin(mesh.Points[v]);
-      box.High = box.High.cwiseMax(mesh.Points[v]);
-    }
-  }
-  return box;
-}
-
-int SideOf(const TetraMesh& mesh, const FaceVertices& vertices, const Box& box)
-{
-  for (int side = 0; side < 6; ++side)
-  {
-    const int axis = side / 2;
-    const double plane = side % 2 == 0 ? box.Low[axis] : box.High[axis];
-    if (std::all_of(vertices.begin(), vertices.end(),
-          [&mesh, axis, plane](std::int32_t v) { return mesh.Points[v][axis] == plane; }))
-    {
-      return side;
-    }
-  }
-  return NoSide;
-}
 
 class PatchFinder
 {
 public:
-  PatchFinder(const TetraMesh& mesh, MaterialId background)
+  PatchFinder(const TetraMesh& mesh, MaterialId background, const Mat3& axes)
     : Mesh(mesh)
     , Background(background)
     , Buckets(SortFaces(mesh))
-    , Bounds(BoxOf(mesh))
+    , Sides(mesh, axes)
   {
   }
 
@@ -167,7 +178,7 @@ private:
     const MaterialId mine = this->Mesh.Materials[one / 4];
     if (other < 0)
     {
-      found.push_back({ { mine, this->Background }, SideOf(this->Mesh, vertices, this->Bounds), one });
+      found.push_back({ { mine, this->Background }, this->Sides.Of(vertices), one });
       return;
     }
     const MaterialId theirs = this->Mesh.Materials[other / 4];
@@ -188,7 +199,7 @@ private:
   const TetraMesh& Mesh;
   MaterialId Background;
   FaceBuckets Buckets;
-  Box Bounds;
+  BoxSides Sides;
 };
 }
 
@@ -210,9 +221,9 @@ Index OrientTetrahedra(TetraMesh& mesh)
   return flat;
 }
 
-std::vector<FacePatch> FindPatches(const TetraMesh& mesh, MaterialId background)
+std::vector<FacePatch> FindPatches(const TetraMesh& mesh, MaterialId background, const Mat3& axes)
 {
-  std::vector<PatchFace> faces = PatchFinder(mesh, background).Find();
+  std::vector<PatchFace> faces = PatchFinder(mesh, background, axes).Find();
   std::sort(faces.begin(), faces.end());
   if (!faces.empty() && faces.back().Materials == Overused)
   {

@@ -28,14 +28,15 @@ struct FacePatch
   /// The background second, else ascending. Faces are of tetrahedra of the first, so that their normals point from the
   /// first to the second.
   std::array<MaterialId, 2> Materials = { NoMaterial, NoMaterial };
-  int Side = NoSide; ///< side of the mesh's bounding box that these outer faces lie in, exactly
+  int Side = NoSide; ///< side of the mesh's box that these outer faces lie in
   std::vector<TetraFace> Faces;
 };
 
 /// The faces between tetrahedra of different materials, and the outer faces, beyond which is the background; ascending
-/// by materials, then side, then tetrahedron. Throws std::invalid_argument with a sentence when a face belongs to three
-/// tetrahedra.
-std::vector<FacePatch> FindPatches(const TetraMesh& mesh, MaterialId background);
+/// by materials, then side, then tetrahedron. The columns of `axes` are those of the mesh's box. Where each is an axis
+/// of the coordinates faces lie in a side exactly; else to 1e-9 of the box's size, since a turned face has lost digits.
+/// Throws std::invalid_argument with a sentence when a face belongs to three tetrahedra.
+std::vector<FacePatch> FindPatches(const TetraMesh& mesh, MaterialId background, const Mat3& axes = Mat3::Identity());
 }
 
 #endif

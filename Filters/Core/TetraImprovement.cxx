@@ -24,10 +24,10 @@ public:
   {
   }
 
-  /// Works on every tetrahedron below the wanted quality, the worst first. Returns how many became better.
-  Index Pass(const Monitor& monitor)
+  /// Works on every tetrahedron below a wanted quality, the worst first. Returns how many became better.
+  Index Pass(double wanted, const Monitor& monitor)
   {
-    const std::vector<std::int32_t> bad = this->Below(this->Options.WantedQuality);
+    const std::vector<std::int32_t> bad = this->Below(wanted);
     constexpr std::size_t stride = 1024;
     Index better = 0;
     for (std::size_t n = 0; n < bad.size(); ++n)
@@ -37,7 +37,7 @@ public:
         monitor.Step(double(n) / double(bad.size()));
       }
       // What was mended with another is dead, or not below any more.
-      if (this->Complex.IsAlive(bad[n]) && this->Complex.Quality(bad[n]) < this->Options.WantedQuality)
+      if (this->Complex.IsAlive(bad[n]) && this->Complex.Quality(bad[n]) < wanted)
       {
         better += this->Improve(bad[n]);
       }
@@ -129,20 +129,36 @@ TetraImproveResult ImproveTetrahedra(TetraMesh& mesh, const TetraImproveOptions&
   TetraImproveResult result;
   monitor.Step(0.0, "Improving tetrahedra");
   TetraComplex complex(std::move(mesh));
+  Improver improver(complex, options, result);
+  const auto mend = [&](double first, double last)
+  {
+    for (int pass = 0; pass < options.Passes; ++pass)
+    {
+      const double begin = first + (last - first) * pass / options.Passes;
+      ++result.Passes;
+      if (improver.Pass(options.WantedQuality, monitor.Part(begin, begin + (last - first) / options.Passes)) == 0)
+      {
+        return;
+      }
+    }
+  };
+  mend(0.1, 0.5);
   for (int pass = 0; pass < options.SmoothingPasses; ++pass)
   {
+    monitor.Step(0.5 + 0.4 * pass / options.SmoothingPasses);
     result.Moves += SmoothAll(complex, options.WantedQuality);
-    monitor.Step(0.3 * (pass + 1) / options.SmoothingPasses);
   }
-  Improver improver(complex, options, result);
-  while (result.Passes < options.Passes)
+  mend(0.9, 1.0);
+  TetraSliding sliding(complex, options.Slide);
+  for (int round = 0; round < options.Slide.Rounds; ++round)
   {
-    const double begin = 0.3 + 0.7 * result.Passes / options.Passes;
-    ++result.Passes;
-    if (improver.Pass(monitor.Part(begin, begin + 0.7 / options.Passes)) == 0)
+    const Index moved = sliding.Round();
+    if (moved == 0)
     {
       break;
     }
+    result.Slides += moved;
+    improver.Pass(options.Slide.Below, monitor.Part(1.0, 1.0));
   }
   mesh = complex.Compacted();
   return result;

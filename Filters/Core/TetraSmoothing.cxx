@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace LabelMesh
 {
@@ -153,13 +154,53 @@ bool IsBetter(const std::vector<OpenTetra>& faces, const Vec3& x, double energy,
   return WorstQuality(faces, x) >= least;
 }
 
-bool SmoothByNewton(TetraComplex& complex, Index v, double floor)
+/// The tetrahedra at each vertex inside a material, for as long as none comes or goes: those at v are
+/// Tetrahedra[Begin[v]] to Tetrahedra[Begin[v + 1]].
+struct AllStars
+{
+  std::vector<Index> Begin;
+  std::vector<std::int32_t> Tetrahedra;
+
+  explicit AllStars(const TetraComplex& complex)
+    : Begin(std::size_t(complex.NumberOfPoints()) + 1, 0)
+  {
+    EachCorner(complex, [this](Index, std::int32_t v) { ++this->Begin[v + 1]; });
+    std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
+    this->Tetrahedra.resize(std::size_t(this->Begin.back()));
+    std::vector<Index> next(this->Begin.begin(), this->Begin.end() - 1);
+    EachCorner(complex, [&](Index t, std::int32_t v) { this->Tetrahedra[next[v]++] = std::int32_t(t); });
+  }
+
+  void Get(Index v, std::vector<std::int32_t>& star) const
+  {
+    star.assign(this->Tetrahedra.begin() + this->Begin[v], this->Tetrahedra.begin() + this->Begin[v + 1]);
+  }
+
+private:
+  template <typename Visit>
+  static void EachCorner(const TetraComplex& complex, Visit&& visit)
+  {
+    for (Index t = 0; t < complex.Size(); ++t)
+    {
+      for (int j = 0; j < 4 && complex.IsAlive(t); ++j)
+      {
+        const std::int32_t v = complex.Corners(t)[j];
+        if (!complex.IsFixed(v))
+        {
+          visit(t, v);
+        }
+      }
+    }
+  }
+};
+
+bool SmoothByNewton(TetraComplex& complex, const AllStars& stars, Index v, double floor)
 {
   constexpr double leastFall = 1e-3, shortest = 1e-2; // of the energy; of the distance to the nearest corner
   constexpr int halvings = 2;
   thread_local std::vector<std::int32_t> star;
   thread_local std::vector<OpenTetra> faces;
-  complex.Star(v, star);
+  stars.Get(v, star);
   FacesAround(complex, star, v, faces);
   const Vec3 x = complex.Point(v);
   MeanRatioEnergy energy;
@@ -189,12 +230,11 @@ bool SmoothByNewton(TetraComplex& complex, Index v, double floor)
 
 /// Sets of vertices inside materials of which no two are joined: each vertex gets the first colour that none around
 /// it has.
-std::vector<std::vector<std::int32_t>> IndependentSets(const TetraComplex& complex)
+std::vector<std::vector<std::int32_t>> IndependentSets(const TetraComplex& complex, const AllStars& stars)
 {
   constexpr std::uint8_t none = 255;
   std::vector<std::uint8_t> colors(std::size_t(complex.NumberOfPoints()), none);
   std::vector<std::vector<std::int32_t>> sets;
-  std::vector<std::int32_t> star;
   for (Index v = 0; v < complex.NumberOfPoints(); ++v)
   {
     if (complex.IsFixed(v))
@@ -202,10 +242,9 @@ std::vector<std::vector<std::int32_t>> IndependentSets(const TetraComplex& compl
       continue;
     }
     std::array<bool, 256> taken{};
-    complex.Star(v, star);
-    for (const std::int32_t t : star)
+    for (Index n = stars.Begin[v]; n < stars.Begin[v + 1]; ++n)
     {
-      for (const std::int32_t other : complex.Corners(t))
+      for (const std::int32_t other : complex.Corners(stars.Tetrahedra[n]))
       {
         taken[colors[other]] = true;
       }
@@ -234,7 +273,18 @@ double WorstQuality(const std::vector<OpenTetra>& faces, const Vec3& x)
   return worst;
 }
 
-double RaiseWorst(const std::vector<OpenTetra>& faces, Vec3& x)
+Vec3 MoveRegion::Nearest(const Vec3& x) const
+{
+  Vec3 way = x - this->Centre;
+  for (int a = 0; a < 3; ++a)
+  {
+    way[a] = this->Fixed[a] ? 0.0 : way[a];
+  }
+  const double length = way.norm();
+  return this->Centre + (length > this->Radius ? this->Radius / length : 1.0) * way;
+}
+
+double RaiseWorst(const std::vector<OpenTetra>& faces, Vec3& x, const MoveRegion* region)
 {
   double worst = WorstQuality(faces, x);
   for (int n = 0; n < Steps; ++n)
@@ -250,7 +300,8 @@ double RaiseWorst(const std::vector<OpenTetra>& faces, Vec3& x)
     double length = std::min(step, longest);
     for (int attempt = 0; attempt <= Halvings; ++attempt, length *= 0.5)
     {
-      const Vec3 moved = x + length * direction;
+      const Vec3 straight = x + length * direction;
+      const Vec3 moved = region ? region->Nearest(straight) : straight;
       const double now = WorstQuality(faces, moved);
       if (now > worst)
       {
@@ -297,7 +348,8 @@ bool RaiseWorstAt(TetraComplex& complex, Index v)
 Index SmoothAll(TetraComplex& complex, double floor)
 {
   Index moves = 0;
-  for (const std::vector<std::int32_t>& set : IndependentSets(complex))
+  const AllStars stars(complex);
+  for (const std::vector<std::int32_t>& set : IndependentSets(complex, stars))
   {
     std::vector<char> moved(set.size(), 0);
     ParallelFor(0, Index(set.size()), 256,
@@ -305,7 +357,7 @@ Index SmoothAll(TetraComplex& complex, double floor)
       {
         for (Index n = first; n < last; ++n)
         {
-          moved[n] = SmoothByNewton(complex, set[n], floor);
+          moved[n] = SmoothByNewton(complex, stars, set[n], floor);
         }
       });
     moves += std::count(moved.begin(), moved.end(), char(1));

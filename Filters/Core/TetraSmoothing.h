@@ -13,10 +13,21 @@ using OpenTetra = std::array<Vec3, 3>;
 /// The lowest TetraQuality of the tetrahedra of x and faces around it.
 double WorstQuality(const std::vector<OpenTetra>& faces, const Vec3& x);
 
+/// Where a point may be moved: a ball, within which some coordinates stay as they are.
+struct MoveRegion
+{
+  Vec3 Centre = Vec3::Zero();
+  double Radius = 0.0;
+  std::array<bool, 3> Fixed{};
+
+  /// The nearest point of it.
+  Vec3 Nearest(const Vec3& x) const;
+};
+
 /// Moves x to where the worst tetrahedron of x and the faces around it is better, until that gives little more: steps
 /// along the shortest vector within the gradients of the terms of quality that are lowest (Freitag and Ollivier-Gooch
-/// 1997). Returns the worst quality there; x stays where nothing is better.
-double RaiseWorst(const std::vector<OpenTetra>& faces, Vec3& x);
+/// 1997). Returns the worst quality there; x stays where nothing is better. With a region it does not leave that.
+double RaiseWorst(const std::vector<OpenTetra>& faces, Vec3& x, const MoveRegion* region = nullptr);
 
 /// The faces opposite v of the tetrahedra around it.
 void FacesAround(

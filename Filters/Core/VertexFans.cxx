@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VertexFans.h"
 
+#include "Parallel.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -74,10 +76,7 @@ std::vector<Index> SplitFans(std::vector<std::array<Index, 3>>& triangles, Index
     at[next[triangles[corner / 3][corner % 3]]++] = corner;
   }
   const std::vector<std::array<Index, 3>> given = triangles;
-  std::vector<Index> copies;
-  std::vector<Corner> corners;
-  std::vector<int> fans;
-  for (Index v = 0; v < vertices; ++v)
+  const auto cornersAt = [&](Index v, std::vector<Corner>& corners)
   {
     corners.clear();
     for (Index n = starts[v]; n < starts[v + 1]; ++n)
@@ -85,6 +84,29 @@ std::vector<Index> SplitFans(std::vector<std::array<Index, 3>>& triangles, Index
       const auto& triangle = given[at[n] / 3];
       corners.push_back({ at[n], triangle[(at[n] + 1) % 3], triangle[(at[n] + 2) % 3] });
     }
+  };
+  // Nearly all vertices have one fan.
+  constexpr Index chunk = 1024;
+  const std::vector<Index> pinched = ParallelCollect<Index>((vertices + chunk - 1) / chunk,
+    [&](Index c, std::vector<Index>& found)
+    {
+      std::vector<Corner> corners;
+      std::vector<int> fans;
+      for (Index v = c * chunk; v < std::min(vertices, (c + 1) * chunk); ++v)
+      {
+        cornersAt(v, corners);
+        if (NumberFans(corners, fans) > 1)
+        {
+          found.push_back(v);
+        }
+      }
+    });
+  std::vector<Index> copies;
+  std::vector<Corner> corners;
+  std::vector<int> fans;
+  for (const Index v : pinched)
+  {
+    cornersAt(v, corners);
     const int count = NumberFans(corners, fans);
     for (std::size_t n = 0; n < corners.size(); ++n)
     {
@@ -93,7 +115,7 @@ std::vector<Index> SplitFans(std::vector<std::array<Index, 3>>& triangles, Index
         triangles[corners[n].Number / 3][corners[n].Number % 3] = vertices + Index(copies.size()) + fans[n] - 1;
       }
     }
-    copies.insert(copies.end(), static_cast<std::size_t>(std::max(count - 1, 0)), v);
+    copies.insert(copies.end(), static_cast<std::size_t>(count - 1), v);
   }
   return copies;
 }

@@ -411,12 +411,14 @@ std::set<std::array<Index, 3>> SortedTriangles(const SurfaceComplex& complex)
 TEST(MeshCuts, FindsTheVerticesOfTrianglesThatCut)
 {
   const CutBall ball;
-  EXPECT_TRUE(VerticesOfCuts(ball.Before).empty());
-  const std::vector<Index> cuts = VerticesOfCuts(ball.Improved);
-  EXPECT_TRUE(std::binary_search(cuts.begin(), cuts.end(), ball.Pulled));
-  EXPECT_FALSE(std::binary_search(cuts.begin(), cuts.end(), ball.Moved));
-  EXPECT_EQ(VerticesOfCuts(ball.Improved, { ball.Pulled }), cuts);
-  EXPECT_TRUE(VerticesOfCuts(ball.Improved, { ball.Moved }).empty());
+  EXPECT_TRUE(FindCuts(ball.Before).empty());
+  const std::vector<Cut> cuts = FindCuts(ball.Improved);
+  ASSERT_EQ(cuts.size(), 1u);
+  EXPECT_EQ(cuts[0], VerticesOf(cuts));
+  EXPECT_TRUE(std::binary_search(cuts[0].begin(), cuts[0].end(), ball.Pulled));
+  EXPECT_FALSE(std::binary_search(cuts[0].begin(), cuts[0].end(), ball.Moved));
+  EXPECT_EQ(FindCuts(ball.Improved, { ball.Pulled }), cuts);
+  EXPECT_TRUE(FindCuts(ball.Improved, { ball.Moved }).empty());
 }
 
 TEST(MeshCuts, PutsBackWhatIsAroundThemAndNothingElse)
@@ -425,23 +427,22 @@ TEST(MeshCuts, PutsBackWhatIsAroundThemAndNothingElse)
   // The edit that is put back may have changed triangles, too.
   const Index neighbor = ball.Improved.Neighbors(ball.Pulled).front();
   ASSERT_TRUE(ball.Improved.Flip(ball.Pulled, neighbor));
-  const std::vector<Index> cuts = VerticesOfCuts(ball.Improved);
-  ASSERT_FALSE(cuts.empty());
-  ASSERT_TRUE(PutBack(ball.Before, cuts, 0.5, ball.Improved));
-  EXPECT_TRUE(VerticesOfCuts(ball.Improved).empty());
+  ASSERT_TRUE(PutBack(ball.Before, FindCuts(ball.Improved), 0.5, ball.Improved));
+  EXPECT_TRUE(FindCuts(ball.Improved).empty());
   EXPECT_EQ(ball.Improved.Vertex(ball.Pulled).Position, ball.Before.Vertex(ball.Pulled).Position);
   EXPECT_NE(ball.Improved.Vertex(ball.Moved).Position, ball.Before.Vertex(ball.Moved).Position);
   EXPECT_EQ(SortedTriangles(ball.Improved), SortedTriangles(ball.Before));
   EXPECT_EQ(EulerNumber(ball.Improved), 2);
 }
 
-TEST(MeshCuts, SaysWhereWhatWasThereDoesNotFit)
+TEST(MeshCuts, GoesFartherWhereWhatWasThereDoesNotFit)
 {
   // An edge of the rim flipped: the old triangles have no edge to end at.
   CutBall flipped;
-  const std::vector<Index> cuts = VerticesOfCuts(flipped.Improved);
-  std::set<Index> core(cuts.begin(), cuts.end());
-  for (const Index v : cuts)
+  const std::vector<Cut> cuts = FindCuts(flipped.Improved);
+  const std::vector<Index> vertices = VerticesOf(cuts);
+  std::set<Index> core(vertices.begin(), vertices.end());
+  for (const Index v : vertices)
   {
     const std::vector<Index> around = flipped.Before.Neighbors(v);
     core.insert(around.begin(), around.end());
@@ -457,9 +458,16 @@ TEST(MeshCuts, SaysWhereWhatWasThereDoesNotFit)
     }
   }
   ASSERT_TRUE(done);
-  EXPECT_FALSE(PutBack(flipped.Before, cuts, 0.5, flipped.Improved));
+  EXPECT_TRUE(PutBack(flipped.Before, cuts, 0.5, flipped.Improved));
+  EXPECT_TRUE(FindCuts(flipped.Improved).empty());
+  EXPECT_EQ(SortedTriangles(flipped.Improved), SortedTriangles(flipped.Before));
+  EXPECT_NE(flipped.Improved.Vertex(flipped.Moved).Position, flipped.Before.Vertex(flipped.Moved).Position);
+}
 
-  // Hardly any triangle is as good as that.
-  CutBall poor;
-  EXPECT_FALSE(PutBack(poor.Before, VerticesOfCuts(poor.Improved), 0.999, poor.Improved));
+TEST(MeshCuts, SaysWhereItCannotBeDone)
+{
+  // What was there before cuts itself.
+  const CutBall before;
+  CutBall ball;
+  EXPECT_FALSE(PutBack(before.Improved, FindCuts(ball.Improved), 0.5, ball.Improved));
 }

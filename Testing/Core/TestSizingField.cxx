@@ -236,6 +236,44 @@ TEST(SizingField, KeepsTheMinimumAndTheMaxima)
   EXPECT_THROW(ComputeSizing(*set, options, nullptr, Monitor()), std::invalid_argument);
 }
 
+TEST(SizingField, BoundsSingleInterfaces)
+{
+  const SampledFields set = HalvedBall(MakeLattice(48, 48, 48), Vec3(24.3, 24.1, 23.8), 18);
+  SizingOptions options;
+  options.Epsilon = 2;
+  options.MinimumLength = 1.0;
+  const SizingResult free = ComputeSizing(*set, options, nullptr, Monitor());
+  options.InterfaceMaximumLength = { { { 1, 2 }, 1.5 } };
+  const SizingResult bound = ComputeSizing(*set, options, nullptr, Monitor());
+  int between = 0, elsewhere = 0;
+  for (const InterfaceSample& sample : FindFeatureSizes(*set, Monitor()).Samples)
+  {
+    const Vec3 x = sample.Position.cast<double>();
+    if (sample.Materials[0] + sample.Materials[1] == 3)
+    {
+      ++between;
+      // At the rim the samples of the other interfaces are the nearest: one voxel along the gradation.
+      const double rim = 18 - (x - Vec3(24.3, 24.1, 23.8)).norm();
+      EXPECT_LE(bound.TargetLength.Trilinear(x), 1.5 + (rim > 2 ? 1e-4 : options.Gradation));
+    }
+    else if (std::abs(x[2] - 23.8) > 16)
+    {
+      // Beyond the reach of the gradation nothing has changed.
+      ++elsewhere;
+      EXPECT_EQ(bound.TargetLength.Trilinear(x), free.TargetLength.Trilinear(x));
+    }
+  }
+  EXPECT_GT(between, 500);
+  EXPECT_GT(elsewhere, 50);
+  EXPECT_GT(bound.PredictedParticles, 1.4 * free.PredictedParticles);
+  // The minimum wins, and 0 is no bound.
+  options.InterfaceMaximumLength = { { { 1, 2 }, 0.5 } };
+  const SizingResult least = ComputeSizing(*set, options, nullptr, Monitor());
+  EXPECT_GE(*std::min_element(least.TargetLength.Values.begin(), least.TargetLength.Values.end()), 1.0f);
+  options.InterfaceMaximumLength = { { { 1, 2 }, 0.0 } };
+  EXPECT_EQ(ComputeSizing(*set, options, nullptr, Monitor()).TargetLength.Values, free.TargetLength.Values);
+}
+
 TEST(SizingField, TakesTheUsersImageAsABound)
 {
   const Vec3 centre(24.3, 24.1, 23.8);

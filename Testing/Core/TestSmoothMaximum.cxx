@@ -128,6 +128,19 @@ TEST(InsideOutside, IsZeroOnTheInterfaceAndOppositeBesideIt)
   EXPECT_NEAR(InsideOutside(*set, 0, deep), set->Value(0, deep) - set->Value(1, deep), 0.5);
 }
 
+TEST(InsideOutside, IsTheDifferenceToTheLargestOtherAlsoAwayFromInterfaces)
+{
+  // A slab between two others: in its middle the second largest changes, far from where either can win.
+  const SampledFields set(MakeLattice(40, 8, 8),
+    { [](const Vec3& x) { return 10 - x[0]; }, [](const Vec3& x) { return 10 - std::abs(x[0] - 20); },
+      [](const Vec3& x) { return x[0] - 30; } });
+  for (double x = 2; x < 37; x += 0.3)
+  {
+    const double other = std::max(10 - x, x - 30);
+    EXPECT_NEAR(InsideOutside(*set, 1, Vec3(x, 4, 4)), set->Value(1, Vec3(x, 4, 4)) - other, 1e-4) << x;
+  }
+}
+
 TEST(CellIndicator, HasTheGradientOfFiniteDifferences)
 {
   const SampledFields set = FourCells(1.0);

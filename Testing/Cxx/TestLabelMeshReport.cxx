@@ -488,6 +488,27 @@ TEST(LabelMeshReport, ErrorMap)
   EXPECT_TRUE(complaints.Say("input port 1")) << complaints.Text;
 }
 
+TEST(LabelMeshReport, CountsRadiusRatiosInBins)
+{
+  // Halves of squares have a radius ratio of 2 (sqrt(2) - 1), those of rectangles of 2 by 1 of 0.68.
+  vtkNew<vtkLabelMeshReport> report;
+  report->SetInputData(0, Mesh({ 0, 4, 7 }));
+  report->Update();
+  vtkTable* ratios = report->GetRadiusRatiosOutput();
+  ASSERT_EQ(ratios->GetNumberOfRows(), 50);
+  EXPECT_EQ(ratios->GetColumnByName("Tetrahedra"), nullptr);
+  double counted = 0.0;
+  for (vtkIdType bin = 0; bin < 50; ++bin)
+  {
+    counted += Cell(ratios, bin, "Triangles");
+  }
+  EXPECT_EQ(counted, Total(report->GetOutput(0), "Triangles"));
+  EXPECT_EQ(Cell(ratios, 41, "Triangles") + Cell(ratios, 34, "Triangles") + Cell(ratios, 33, "Triangles"), counted);
+  report->SetInputData(0, vtkNew<vtkPolyData>());
+  report->Update();
+  EXPECT_EQ(report->GetRadiusRatiosOutput()->GetNumberOfRows(), 50);
+}
+
 TEST(LabelMeshReport, SaysWhatIsMissing)
 {
   vtkNew<vtkLabelMeshReport> report;

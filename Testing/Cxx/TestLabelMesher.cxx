@@ -13,13 +13,16 @@
 #include "vtkTighten.h"
 
 #include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
+#include <vtkDataAssembly.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
+#include <vtkStringArray.h>
 
 #include <gtest/gtest.h>
 
@@ -253,6 +256,83 @@ TEST(LabelMesher, UserSizing)
   mesher->SetInputData(1, nullptr);
   mesher->Update();
   EXPECT_EQ(mesher->GetOutput()->GetNumberOfCells(), free);
+}
+
+TEST(LabelMesher, NamesAndColorsRunNoStage)
+{
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputDataObject(TwoSpheres(24));
+  mesher->Update();
+  const auto nameOf = [&](int block)
+  { return std::string(mesher->GetSurfaces()->GetMetaData(block)->Get(vtkCompositeDataSet::NAME())); };
+  const auto colorOf = [&](int block)
+  { return mesher->GetSurfaces()->GetPartition(block, 0)->GetFieldData()->GetArray(Names::Color)->GetTuple3(0)[2]; };
+  const double before = colorOf(0);
+  const std::string bytes = BytesOf(mesher->GetOutput());
+  mesher->SetMaterialName(1, "upper");
+  mesher->SetMaterialColor(1, 0.125, 0.25, 0.375);
+  mesher->Update();
+  EXPECT_EQ(nameOf(0), "upper");
+  EXPECT_EQ(nameOf(1), "Label_2");
+  EXPECT_EQ(colorOf(0), 0.375);
+  vtkDataAssembly* assembly = mesher->GetSurfaces()->GetDataAssembly();
+  EXPECT_EQ(assembly->GetDataSetIndices(assembly->FindFirstNodeWithName("upper")), std::vector<unsigned int>{ 0 });
+  for (int port : { 0, 1, 2, 3 })
+  {
+    vtkFieldData* fieldData = mesher->GetOutputDataObject(port)->GetFieldData();
+    EXPECT_EQ(vtkStringArray::SafeDownCast(fieldData->GetAbstractArray(Names::MaterialNames))->GetValue(1), "upper");
+    EXPECT_EQ(fieldData->GetArray(Names::MaterialColors)->GetComponent(1, 1), 0.25) << port;
+  }
+  for (int stage = 0; stage < mesher->GetNumberOfStages(); ++stage)
+  {
+    EXPECT_EQ(mesher->GetStageRuns(mesher->GetStageName(stage)), 1) << mesher->GetStageName(stage);
+  }
+  EXPECT_EQ(BytesOf(mesher->GetOutput()), bytes);
+  mesher->ClearMaterialNames();
+  mesher->ClearMaterialColors();
+  mesher->Update();
+  EXPECT_EQ(nameOf(0), "Label_1") << "what the stages keep has not been written to";
+  EXPECT_EQ(colorOf(0), before);
+}
+
+TEST(LabelMesher, ALengthPerInterface)
+{
+  // The longest edge between 1 and 2, and among those of 1 and the background that are far from 2.
+  const auto longest = [](vtkPolyData* mesh, double& between, double& away)
+  {
+    between = away = 0;
+    vtkDataArray* labels = mesh->GetCellData()->GetArray(Names::BoundaryLabels);
+    const InterfaceData data = ReadInterface(mesh);
+    for (vtkIdType t = 0; t < mesh->GetNumberOfCells(); ++t)
+    {
+      const double sum = labels->GetComponent(t, 0) + labels->GetComponent(t, 1);
+      for (int corner = 0; corner < 3; ++corner)
+      {
+        const Vec3& a = data.Points[data.Triangles[t].Vertices[corner]];
+        const double length = (a - data.Points[data.Triangles[t].Vertices[(corner + 1) % 3]]).norm();
+        double& most = sum == 3 ? between : away;
+        if (sum == 3 || (sum == 1 && a[2] > 0.7 * 32))
+        {
+          most = std::max(most, length);
+        }
+      }
+    }
+  };
+  vtkNew<vtkLabelMesher> mesher;
+  mesher->SetInputDataObject(TwoSpheres(32));
+  mesher->Update();
+  double between = 0, away = 0, fineBetween = 0, fineAway = 0;
+  longest(mesher->GetOutput(), between, away);
+  mesher->SetInterfaceMaximumLength(2, 1, 0.5);
+  EXPECT_EQ(mesher->GetInterfaceMaximumLength(1, 2), 0.5);
+  mesher->Update();
+  longest(mesher->GetOutput(), fineBetween, fineAway);
+  EXPECT_GT(between, 1.5);
+  EXPECT_LT(fineBetween, 1.0); // edges are at most about 1.6 target lengths long
+  EXPECT_NEAR(fineAway, away, 0.35 * away);
+  EXPECT_EQ(mesher->GetStageRuns("Tighten"), 1) << "only the sizing and what follows it";
+  mesher->ClearInterfaceMaximumLengths();
+  EXPECT_EQ(mesher->GetInterfaceMaximumLength(1, 2), 0.0);
 }
 
 TEST(LabelMesher, MirroredAndOriented)

@@ -126,6 +126,33 @@ TEST(MeshSets, FacesAreThoseBetweenMaterialsAndThoseOfTheBox)
   }
 }
 
+TEST(MeshSets, TheBoxIsTurnedWithTheImage)
+{
+  const auto grid = ThreeMaterials();
+  const Mat3 axes = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  for (vtkIdType p = 0; p < grid->GetNumberOfPoints(); ++p)
+  {
+    Vec3 x;
+    grid->GetPoint(p, x.data());
+    const Vec3 turned = axes * x + Vec3(1e4, -7.3, 0.1);
+    grid->GetPoints()->SetPoint(p, turned.data());
+  }
+  EXPECT_EQ(FindSets(ReadTetrahedra(grid), AnyName).Faces.size(), 5u) << "no sides along the world's axes";
+  vtkNew<vtkDoubleArray> direction;
+  direction->SetName(Names::SourceDirection);
+  direction->SetNumberOfComponents(9);
+  const Mat3 rows = axes.transpose(); // Eigen's order is by columns
+  direction->InsertNextTuple(rows.data());
+  grid->GetFieldData()->AddArray(direction);
+  const TetraData data = ReadTetrahedra(grid);
+  const auto areas = AreasOf(data, FindSets(data, AnyName));
+  ASSERT_EQ(areas.size(), 11u);
+  EXPECT_LT((areas.at("border_x_min") - axes * Vec3(-6, 0, 0)).norm(), 1e-8);
+  EXPECT_LT((areas.at("border_y_max") - axes * Vec3(0, 6, 0)).norm(), 1e-8);
+  EXPECT_LT((areas.at("border_z_max") - axes * Vec3(0, 0, 4)).norm(), 1e-8);
+  EXPECT_LT((areas.at("Label_1_Label_2") - axes * Vec3(0, 0, 4)).norm(), 1e-8);
+}
+
 TEST(MeshSets, TheBackgroundMayBeMeshedToo)
 {
   const auto grid = Box({ 3, 3, 3 }, Vec3::Zero(), [](int i, int j, int k) -> Label { return i * j * k == 1 ? 4 : 0; });

@@ -146,6 +146,11 @@ TEST(SizingFieldFilter, PassesItsOptionsOn)
   EXPECT_EQ(filter->GetMaterialMaximumLength(7), 1.5);
   EXPECT_NEAR(atPole(), 1.5, 1e-6);
   filter->ClearMaterialMaximumLengths();
+  filter->SetInterfaceMaximumLength(7, 0, 1.25);
+  EXPECT_EQ(filter->GetInterfaceMaximumLength(0, 7), 1.25) << "labels in any order";
+  EXPECT_NEAR(atPole(), 1.25, 1e-6);
+  filter->ClearInterfaceMaximumLengths();
+  EXPECT_EQ(filter->GetInterfaceMaximumLength(7, 0), 0.0);
   filter->SetMinimumLength(4);
   EXPECT_NEAR(atPole(), 4, 1e-6);
   filter->SetMinimumLength(0);
@@ -156,13 +161,18 @@ TEST(SizingFieldFilter, PassesItsOptionsOn)
   Listener listener(filter);
   filter->SetMaximumLength(0.5);
   filter->SetMaterialMaximumLength(99, 1.0);
+  filter->SetInterfaceMaximumLength(7, 98, 1.0);
+  filter->SetInterfaceMaximumLength(7, 7, 1.0);
   atPole();
+  EXPECT_NE(listener.Warnings.find("no interface between the labels 7 and 98"), std::string::npos);
+  EXPECT_NE(listener.Warnings.find("no interface between the labels 7 and 7"), std::string::npos);
   EXPECT_NE(listener.Warnings.find("cannot be reached"), std::string::npos) << listener.Warnings;
   EXPECT_NE(listener.Warnings.find("1 labels that are not"), std::string::npos) << listener.Warnings;
   EXPECT_TRUE(listener.Errors.empty()) << listener.Errors;
   std::ostringstream text;
   filter->Print(text);
   EXPECT_NE(text.str().find("99: 1"), std::string::npos);
+  EXPECT_NE(text.str().find("7, 98: 1"), std::string::npos);
 }
 
 TEST(SizingFieldFilter, SaysWhatIsWrong)

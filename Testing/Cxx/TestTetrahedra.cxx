@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tetrahedra inside the materials: from handmade surfaces, and through all stages.
 #include "Core/ConstrainedDelaunay.h"
+#include "Core/TetraFaces.h"
 #include "LabelMeshNames.h"
 #include "MeshAdapter.h"
 #include "TestCollections.h"
 #include "TestMeshes.h"
+#include "TetraReader.h"
 #include "vtkDelaunayLabelMesh.h"
 #include "vtkLabelMeshReport.h"
 #include "vtkLabelMesher.h"
@@ -253,6 +255,57 @@ TEST(Tetrahedra, FailInWords)
   EXPECT_TRUE(FillWithTetrahedra(InterfaceMesh(), 0, {}, TetraOptions()).Mesh.Corners.empty());
 }
 
+TEST(Tetrahedra, KeepTheTrianglesWhereTheyFail)
+{
+  // Four particles of a ball on a circle through its middle, but for rounding: in some turns of the circle their
+  // tetrahedron has a volume, but none that can be computed.
+  const GridFrame source({ 0, 19, 0, 19, 0, 19 }, Vec3::Zero(), Vec3::Ones(), Mat3::Identity());
+  const Vec3 centre(9.3, 9.6, 9.7);
+  const double radius = 6.0;
+  const auto indicators =
+    TestCollections::MakeCollection(source, 6, TestCollections::BallFields(centre, radius), Names::Indicator);
+  int failures = 0;
+  for (int turn = 0; turn < 40; ++turn)
+  {
+    const Mat3 frame = Eigen::AngleAxisd(0.1 + 0.07 * turn, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+    std::vector<Particle> particles(4);
+    for (int n = 0; n < 4; ++n)
+    {
+      Particle& p = particles[n];
+      p.Normal = (n % 2 == 0 ? -1.0 : 1.0) * frame.col(n / 2);
+      p.Position = centre + radius * p.Normal;
+      p.TargetLength = 8.0;
+      p.Materials.Insert(0);
+      p.Materials.Insert(1);
+    }
+    vtkNew<vtkPolyData> points;
+    ParticlesToPolyData(particles, ReadHeader(indicators), points);
+    vtkNew<vtkDelaunayLabelMesh> mesher;
+    mesher->SetInputData(0, points);
+    mesher->SetInputData(1, indicators);
+    mesher->SetRepairRounds(0);
+    mesher->SetImprovePasses(0);
+    mesher->SetRepairBelow(0.0);
+    mesher->ChordCorrectionOff();
+    mesher->SetTetrahedraToTetGen();
+    const TestCollections::Listener listener(mesher);
+    mesher->Update();
+    EXPECT_TRUE(listener.Errors.empty()) << listener.Errors;
+    const std::string failure = mesher->GetTetrahedraFailure();
+    if (!failure.empty())
+    {
+      ++failures;
+      EXPECT_EQ(mesher->GetOutput()->GetNumberOfCells(), 4);
+      EXPECT_EQ(mesher->GetTetrahedraOutput()->GetNumberOfCells(), 0);
+      EXPECT_NE(listener.Warnings.find(failure), std::string::npos) << listener.Warnings;
+      mesher->SetTetrahedraToOff();
+      mesher->Update();
+      EXPECT_TRUE(std::string(mesher->GetTetrahedraFailure()).empty()) << "of the update before";
+    }
+  }
+  EXPECT_GT(failures, 0);
+}
+
 TEST(Tetrahedra, OfTwoSpheres)
 {
   // The rows of the paper's table 3.
@@ -350,6 +403,26 @@ TEST(Tetrahedra, AreReported)
       all);
   }
   EXPECT_EQ(angles, 6.0 * total("Tetrahedra"));
+  vtkTable* ratios = report->GetRadiusRatiosOutput();
+  ASSERT_EQ(ratios->GetNumberOfRows(), 50);
+  double cells[2] = { 0.0, 0.0 }, means[2] = { 0.0, 0.0 };
+  const char* const columns[] = { "Triangles", "Tetrahedra" };
+  for (vtkIdType bin = 0; bin < 50; ++bin)
+  {
+    const double middle = ratios->GetValueByName(bin, Names::BinExtents).ToDouble();
+    EXPECT_NEAR(middle, 0.01 + 0.02 * double(bin), 1e-12);
+    for (int c = 0; c < 2; ++c)
+    {
+      const double here = ratios->GetValueByName(bin, columns[c]).ToDouble();
+      cells[c] += here;
+      means[c] += here * middle;
+    }
+  }
+  EXPECT_EQ(cells[0], double(mesher->GetOutput()->GetNumberOfCells()));
+  EXPECT_EQ(cells[1], total("Tetrahedra"));
+  // Half a bin at most is lost where ratios are counted by bins.
+  EXPECT_NEAR(means[0] / cells[0], surfaces->GetFieldData()->GetArray("MeanRadiusRatio")->GetComponent(0, 0), 0.01);
+  EXPECT_NEAR(means[1] / cells[1], total("MeanRadiusRatio"), 0.01);
 }
 
 TEST(Tetrahedra, LeaveTheSurfaceAsItIs)
@@ -395,6 +468,24 @@ TEST(Tetrahedra, FillAFlatBoxExactly)
   }
   const double box = 12 * 12 * 16 * frame.Spacing().prod();
   EXPECT_NEAR(sum, box, 1e-9 * box);
+  // Sets for all six sides of the turned box.
+  const TetraData data = ReadTetrahedra(mesher->GetTetrahedraOutput());
+  std::map<int, double> sides;
+  for (const FacePatch& patch : FindPatches(data.Mesh, data.Background, data.Axes))
+  {
+    for (const TetraFace& face : patch.Faces)
+    {
+      const auto& c = data.Mesh.Corners[face.Tetra];
+      const auto& n = LabelMesh::FaceCorners[face.Opposite];
+      const Vec3& a = data.Mesh.Points[c[n[0]]];
+      sides[patch.Side] += 0.5 * (data.Mesh.Points[c[n[1]]] - a).cross(data.Mesh.Points[c[n[2]]] - a).norm();
+    }
+  }
+  const Vec3 size = frame.Spacing().cwiseProduct(Vec3(12, 12, 16));
+  for (int side = 0; side < 6; ++side)
+  {
+    EXPECT_NEAR(sides[side] * size[side / 2], box, 1e-9 * box) << side;
+  }
 }
 
 TEST(Tetrahedra, SameBitsForAnyNumberOfThreads)
@@ -425,6 +516,9 @@ TEST(Tetrahedra, PropertiesReachTheStages)
   EXPECT_EQ(mesher->GetMinimumDihedral(), 10.0);
   EXPECT_EQ(mesher->GetRadiusEdgeRatio(), 1.6);
   EXPECT_EQ(mesher->GetTetraImprovePasses(), 10);
+  EXPECT_TRUE(mesher->GetSlideSurface());
+  mesher->SetSlideSurface(false);
+  EXPECT_FALSE(mesher->GetSlideSurface());
   mesher->SetTetraImprovePasses(3);
   EXPECT_EQ(mesher->GetTetraImprovePasses(), 3);
   mesher->SetVolumeMaximumLength(5.0);

@@ -2,6 +2,7 @@
 // labelmesh-fuzz [options] FIRST COUNT: meshes the volumes of the seeds FIRST, FIRST + 1, ... by every method.
 //   --limit SECONDS   time for one mesh, after which the program gives up (60)
 //   --write FILE.vti  writes the volume of FIRST and stops
+//   --tetrahedra N    fills the materials of every Nth seed with tetrahedra (5; 0: of none)
 //   --verbose         a line per mesh
 //
 // What has to hold:
@@ -13,9 +14,12 @@
 //    a surface touches itself are counted, not refused: they are no edge and no area, and a voxel volume has them too,
 //    where voxels touch at a corner. The surfaces of the materials are taken apart there: they have to be closed,
 //    oriented, and manifold at edges and vertices;
+//  - tetrahedra, packed and by TetGen in turn: what TetraFaults.h says, or a warning that says why there are none,
+//    which is counted;
 //  - grid method: closed and oriented, which is all that it promises (see vtkGridLabelMesh).
 // Exit 0 when all of it held; 1 after naming each seed where it did not, 2 at a crash or a hang.
 #include "FuzzVolume.h"
+#include "TetraFaults.h"
 
 #include "Core/MeshChecks.h"
 #include "LabelMeshNames.h"
@@ -25,6 +29,7 @@
 #include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkDelaunayLabelMesh.h>
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkGridLabelMesh.h>
@@ -39,6 +44,7 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTighten.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLImageDataWriter.h>
 
 #include <unistd.h>
@@ -62,6 +68,7 @@ struct Options
   std::uint64_t First = 0;
   std::uint64_t Count = 0;
   unsigned Limit = 60;
+  std::uint64_t Tetrahedra = 5;
   bool Verbose = false;
   std::string Write;
 };
@@ -218,6 +225,22 @@ std::string FaultsOf(
   return faults + FaultsOfSurfaces(surfaces, grid);
 }
 
+/// What is wrong with the tetrahedra in a mesh; empty when nothing is, and where a warning says why there are none.
+std::string FaultsOfFilling(vtkGridLabelMesh*, Tally&)
+{
+  return "";
+}
+std::string FaultsOfFilling(vtkLabelMesher* filter, Tally& tally)
+{
+  if (filter->GetTetrahedra() == vtkDelaunayLabelMesh::Off)
+  {
+    return "";
+  }
+  const bool filled = std::string(filter->GetTetrahedraFailure()).empty();
+  ++tally.Counts[filled ? "filled with tetrahedra" : "that cannot be filled"];
+  return filled ? FaultsOfTetrahedra(filter->GetTetrahedraOutput(), filter->GetOutput()) : "";
+}
+
 /// Meshes a volume and judges the result; empty when it is as it should be.
 template <typename Filter>
 std::string Mesh(Filter* filter, const FuzzVolume& volume, bool grid, Tally& tally)
@@ -243,7 +266,7 @@ std::string Mesh(Filter* filter, const FuzzVolume& volume, bool grid, Tally& tal
     return said.Warnings.empty() ? "an empty mesh without a word" : "";
   }
   ++tally.Counts["meshes"];
-  return FaultsOf(volume, mesh, filter->GetSurfaces(), grid, tally);
+  return FaultsOf(volume, mesh, filter->GetSurfaces(), grid, tally) + FaultsOfFilling(filter, tally);
 }
 
 void Try(std::uint64_t seed, const FuzzVolume& volume, int method, const Options& options, Tally& tally)
@@ -262,6 +285,11 @@ void Try(std::uint64_t seed, const FuzzVolume& volume, int method, const Options
   {
     vtkNew<vtkLabelMesher> filter;
     filter->SetSmoothing(method == 0 ? vtkTighten::VolumeKeeping : vtkTighten::Tightening);
+    if (method == 0 && options.Tetrahedra > 0 && seed % options.Tetrahedra == 0)
+    {
+      const bool packed = seed / options.Tetrahedra % 2 == 0;
+      filter->SetTetrahedra(packed ? vtkDelaunayLabelMesh::Packed : vtkDelaunayLabelMesh::TetGen);
+    }
     fault = Mesh(filter.Get(), volume, false, tally);
   }
   alarm(0);
@@ -299,6 +327,10 @@ bool Parse(int argc, char** argv, Options& options)
     {
       options.Limit = static_cast<unsigned>(std::strtoul(argv[++n], nullptr, 10));
     }
+    else if (word == "--tetrahedra" && n + 1 < argc)
+    {
+      options.Tetrahedra = std::strtoull(argv[++n], nullptr, 10);
+    }
     else if (word == "--write" && n + 1 < argc)
     {
       options.Write = argv[++n];
@@ -323,7 +355,8 @@ int main(int argc, char** argv)
   Options options;
   if (!Parse(argc, argv, options))
   {
-    std::fprintf(stderr, "labelmesh-fuzz [--limit SECONDS] [--verbose] [--write FILE.vti] FIRST COUNT\n");
+    std::fprintf(
+      stderr, "labelmesh-fuzz [--limit SECONDS] [--tetrahedra N] [--verbose] [--write FILE.vti] FIRST COUNT\n");
     return 1;
   }
   if (!options.Write.empty())

@@ -70,6 +70,20 @@ assert content(output(whole)) != before
 whole.MaximumLength = 4.0
 assert content(output(whole)) == before
 
+# A change runs the stages that it concerns, and no others; what the panel says of them is known.
+counted = LabelMesher(Input=volume, LabelArray=LABELS, MaximumLength=4.0)
+for change, value, runs in (("Epsilon", 0.6, [1, 1, 1, 1, 1, 1]), ("Epsilon", 0.7, [1, 1, 1, 2, 2, 2]),
+                            ("Seed", 2, [1, 1, 1, 2, 3, 3]), ("ImprovePasses", 2, [1, 1, 1, 2, 3, 4]),
+                            ("Radius", 0.8, [2, 2, 2, 3, 4, 5])):
+    counted.SetPropertyWithName(change, value)
+    counted.UpdatePipeline()
+    counted.UpdatePropertyInformation()
+    assert list(counted.GetPropertyValue("StageRuns")) == runs, (change, list(counted.GetPropertyValue("StageRuns")))
+assert counted.GetPropertyValue("NumberOfTriangles") == output(counted).GetNumberOfPolys() > 500
+assert counted.GetPropertyValue("NumberOfParticles") == output(counted, 2).GetNumberOfPoints()
+assert abs(counted.GetPropertyValue("PredictedParticles") / counted.GetPropertyValue("NumberOfParticles") - 1) < 0.3
+assert all(seconds > 0 for seconds in counted.GetPropertyValue("StageSeconds"))
+
 sizing.UpdatePropertyInformation()
 assert sizing.GetPropertyValue("PredictedParticles") > 100
 

@@ -12,7 +12,7 @@ from paraview.simple import LoadPlugin
 LoadPlugin(os.environ["LABELMESH_PLUGIN"], remote=False, ns=globals())
 
 FILTERS = ["LabelSplit", "Tighten", "IndicatorReconstruct", "SizingField", "ParticleSampleCells", "DelaunayLabelMesh",
-           "GridLabelMesh", "LabelMeshReport", "LabelMesher"]
+           "GridLabelMesh", "LabelMeshReport", "ExplodeLabels", "LabelMesher", "LabelSurvey"]
 
 failures = []
 

@@ -115,6 +115,7 @@ class TestChain(unittest.TestCase):
                     filled = voxel * (labels == label).sum()
                     self.assertAlmostEqual(row["voxel_volume"] / filled, 1, places=9)
                     self.assertAlmostEqual(row["volume"] / filled, 1, delta=VOLUME_SHARE.get(name, 0.02))
+                    self.assertAlmostEqual(row["volume"] / row["tight_volume"], 1, delta=0.001)
         self.check_blocks(stem, report, points)
         return report
 

@@ -178,6 +178,17 @@ class TestOutput(CommandLineTest):
         self.mesh(self.spheres, "--tets", "g.vtu", "--tet-method", "tetgen", "--quiet")
         self.assertGreater(read_grid(self.folder / "g.vtu").GetNumberOfCells(), 1000)
 
+    def test_a_length_per_interface(self):
+        def triangles(*options):
+            self.mesh(self.spheres, "-o", "m.vtp", "--quiet", *options)
+            labels = vtk_to_numpy(read_mesh(self.folder / "m.vtp").GetCellData().GetArray("BoundaryLabels"))
+            return (int((labels.sum(axis=1) == 3).sum()), len(labels))
+        coarse, all_coarse = triangles()
+        fine, all_fine = triangles("--interface", "2,1:length=0.6")
+        self.assertGreater(fine, 2 * coarse)
+        self.assertLess(all_fine, 2 * all_coarse + fine)
+        self.assertEqual(triangles("--interface", "1,2:length=0"), (coarse, all_coarse))
+
     def test_grid_method(self):
         self.mesh(self.spheres, "-o", "grid.vtp", "--method", "grid", "--triangles", 800, "--report", "grid.json")
         report = json.loads((self.folder / "grid.json").read_text())
@@ -441,6 +452,8 @@ class TestRefusals(CommandLineTest):
         self.refuse("packed or tetgen", self.spheres, *mesh, "--tets", "t.vtu", "--tet-method", "magic")
         self.refuse("belongs to --tets", self.spheres, *mesh, "--tet-refine", "1")
         self.refuse("belongs to --tets", self.spheres, *mesh, "--tet-improve", "1")
+        self.refuse("belongs to --tets", self.spheres, *mesh, "--tet-slide", "off")
+        self.refuse("on or off", self.spheres, *mesh, "--tets", "t.vtu", "--tet-slide", "maybe")
         self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--tets", "t.vtu")
         self.refuse("writes a .vtp file", self.spheres, "-o", "m.stl")
         self.refuse("no folder 'gone'", self.spheres, "-o", "gone/m.vtp")
@@ -449,6 +462,9 @@ class TestRefusals(CommandLineTest):
         self.refuse("names label 7", self.spheres, *mesh, "--labels", "1,7")
         self.refuse("names label 7", self.spheres, *mesh, "--material", "7:radius=1")
         self.refuse("is none of", self.spheres, *mesh, "--material", "1:size=1")
+        self.refuse("names label 7", self.spheres, *mesh, "--interface", "1,7:length=1")
+        self.refuse("needs A,B:length=L", self.spheres, *mesh, "--interface", "1:length=1")
+        self.refuse("between two labels", self.spheres, *mesh, "--interface", "1,1:length=1")
         self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--epsilon", "0.4")
         self.refuse("belongs to --method particle", self.spheres, *mesh, "--method", "grid", "--smoothing", "volume")
         self.refuse("larger than", self.spheres, *mesh, "--min-length", "3", "--max-length", "2")

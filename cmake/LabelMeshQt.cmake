@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Whether the panel's Qt widgets can be built: LABELMESH_HAVE_QT. ParaView's own packages ask for all that it was built
+# with as soon as a Qt component is named, so these are looked for first, and nothing fails where one is missing.
+set(LABELMESH_QT AUTO CACHE STRING "Build the Qt widgets of the panel: AUTO (where all that they need is found), ON, OFF")
+set_property(CACHE LABELMESH_QT PROPERTY STRINGS AUTO ON OFF)
+
+set(LABELMESH_HAVE_QT OFF)
+if(NOT LABELMESH_QT STREQUAL "AUTO" AND NOT LABELMESH_QT)
+  return()
+endif()
+
+set(missing)
+if(NOT PARAVIEW_USE_QT)
+  list(APPEND missing "a ParaView with Qt")
+else()
+  foreach(package Boost "Qt5 5.12 COMPONENTS Core Gui Network OpenGL Widgets")
+    separate_arguments(arguments UNIX_COMMAND "${package}")
+    list(GET arguments 0 name)
+    find_package(${arguments} QUIET)
+    if(NOT ${name}_FOUND)
+      list(APPEND missing "${name}")
+    endif()
+  endforeach()
+endif()
+if(NOT missing)
+  find_package(ParaView 5.11 QUIET COMPONENTS
+    RemotingCore RemotingServerManager WrapClientServer ProcessXML pqComponents pqCore pqWidgets)
+  if(NOT ParaView_FOUND)
+    list(APPEND missing "what ParaView's Qt components need: ${ParaView_NOT_FOUND_MESSAGE}")
+  endif()
+  # The link interfaces of ParaView's libraries name these.
+  find_package(VTK 9.1 QUIET COMPONENTS ${LABELMESH_VTK_COMPONENTS} glew hdf5 netcdf libxml2)
+  if(NOT VTK_FOUND)
+    list(APPEND missing "what VTK's glew, hdf5, netcdf and libxml2 need: ${VTK_NOT_FOUND_MESSAGE}")
+  endif()
+endif()
+
+if(NOT missing)
+  set(LABELMESH_HAVE_QT ON)
+elseif(LABELMESH_QT STREQUAL "AUTO")
+  list(JOIN missing ", " missing)
+  message(STATUS "The materials table of the panel is left out, for want of ${missing}")
+else()
+  list(JOIN missing ", " missing)
+  message(FATAL_ERROR "LABELMESH_QT is ON, but these were not found: ${missing}")
+endif()
