@@ -21,7 +21,6 @@ packages=(
 )
 test_packages=(
   dpkg-dev                                                         # makes and tries the Debian package
-  xdotool                                                          # presses a key in the application
   gmsh python3-gmsh calculix-ccx                                   # read the meshes for simulation, and solve with them
 )
 
