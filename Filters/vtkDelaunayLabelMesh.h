@@ -65,7 +65,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Rounds of local repair at most, while there are faults and it helps; 0: none. Default 8.
+  /// Rounds of local repair at most, while there are faults and it helps; 0: none. Where wrong faces or non-manifold
+  /// edges stay, particles are added around them, up to four times, with two rounds each. Default 8.
   vtkSetClampMacro(RepairRounds, int, 0, 1000);
   vtkGetMacro(RepairRounds, int);
   ///@}
